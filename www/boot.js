@@ -216,15 +216,16 @@ async function boot() {
     return;
   }
   isLoading = false;
+  noteEnd = mandelight.note_end;
   try {
     showLoading(loadingText, NaN);
     await pixelsFixed;
     await mandelight.start(element("mandelight"));
-    noteEnd = mandelight.note_end;
     showNotice("");
     keepOffline().catch((error) => console.warn("the page is not kept for visits offline:", error));
   } catch (error) {
     console.error(error);
+    if (isTrap(error)) return reportTrap(error);
     const reason = error instanceof Error ? error.message : String(error);
     showNotice(
       "Mandelight could not start",
@@ -239,23 +240,26 @@ let hasModuleNotice = false;
 /** Notes in the storage that the scene in view ended the program. */
 let noteEnd = () => {};
 
-/** Whether the module's code threw `error`: a trap, or a stack that is too deep. */
+/** Shows that the program has ended by an error in it. */
+const showStop = (reason) =>
+  showNotice(
+    "Mandelight stopped because of an error in the program",
+    `Your scene is saved. Press “Try again”, then “Open the scene anyway”.\n\n${reason}`,
+  );
+
+/** Whether the module's code threw `error`: a trap, or a stack that is too deep, which Firefox calls an internal error. */
 const isTrap = (error) =>
   error instanceof WebAssembly.RuntimeError ||
-  (error instanceof RangeError && Boolean(error.stack?.includes("wasm")));
+  (["RangeError", "InternalError"].includes(error?.name) && Boolean(error.stack?.includes("wasm")));
 
 // A trap ends the module for good; without a notice the picture would just freeze.
 const reportTrap = (error) => {
-  if (isTrap(error) && !hasModuleNotice) {
-    try {
-      noteEnd();
-    } catch {
-      // The module is beyond that.
-    }
-    showNotice(
-      "Mandelight stopped because of an error in the program",
-      `Your scene is saved. Press “Try again” to continue.\n\n${error.message}`,
-    );
+  if (!isTrap(error) || hasModuleNotice) return;
+  showStop(error.message);
+  try {
+    noteEnd();
+  } catch {
+    // A broken module may throw again.
   }
 };
 window.addEventListener("error", (event) => reportTrap(event.error));
@@ -276,6 +280,10 @@ window.mandelightVideo = () => part(import("./video.js"));
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;
   showNotice(text, detail);
+};
+window.mandelightStop = (reason) => {
+  hasModuleNotice = true;
+  showStop(reason);
 };
 element("notice-again").addEventListener("click", () => window.location.reload());
 boot();

@@ -47,8 +47,8 @@ export async function read(address, maxBytes, isWhole) {
   return bytes;
 }
 
-/** The picture that is being made small: one at a time, for each may take 128 MiB. */
-let latest = Promise.resolve();
+/** The end of the queue of pictures that are made small: one at a time, for each may take 128 MiB. */
+let queue = Promise.resolve();
 
 /**
  * The middle of a picture, made small.
@@ -62,6 +62,7 @@ export function smallPixels(file, width, height) {
     const context = await smallContext(new Blob([file]), width, height);
     return context.getImageData(0, 0, width, height).data;
   };
-  latest = latest.then(make, make);
-  return latest;
+  const made = queue.then(make);
+  queue = made.catch(() => {});
+  return made;
 }

@@ -7,8 +7,11 @@
 const VERSION = "";
 const FILES = [];
 
-const PREFIX = "mandelight-";
+/** Caches are shared by all pages of an origin: each folder with the program has its own. */
+const PREFIX = `mandelight-${new URL(self.registration.scope).pathname}-`;
 const CACHE = PREFIX + VERSION;
+/** The entry of caches whose version has been shown. */
+const SHOWN = "./shown";
 /** The document, by the address of the folder. */
 const DOCUMENT = "./";
 
@@ -16,17 +19,29 @@ self.addEventListener("install", (event) => {
   event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll([DOCUMENT, ...FILES])));
 });
 
+/** This program's caches, in the order in which they were made. */
+const cacheNames = async () => (await caches.keys()).filter((name) => name.startsWith(PREFIX));
+
 self.addEventListener("activate", (event) => {
   const purge = async () => {
-    // In the order in which they were made.
-    const names = await caches.keys();
-    const old = names.filter((name) => name.startsWith(PREFIX) && name !== CACHE);
+    const old = (await cacheNames()).filter((name) => name !== CACHE);
+    const wasShown = await Promise.all(old.map(async (name) => Boolean(await (await caches.open(name)).match(SHOWN))));
     // Tabs that show the version before this one may still load parts of it.
-    await Promise.all(old.slice(0, -1).map((name) => caches.delete(name)));
+    const before = old[wasShown.lastIndexOf(true)];
+    await Promise.all(old.filter((name) => name !== before).map((name) => caches.delete(name)));
+    await (await caches.open(CACHE)).put(SHOWN, new Response());
     await self.clients.claim();
   };
   event.waitUntil(purge());
 });
+
+/** A file of any kept version. */
+async function ofAnyVersion(request) {
+  for (const name of await cacheNames()) {
+    const found = await (await caches.open(name)).match(request);
+    if (found) return found;
+  }
+}
 
 self.addEventListener("message", (event) => {
   if (event.data === "activate") self.skipWaiting();
@@ -46,7 +61,7 @@ self.addEventListener("fetch", (event) => {
     const found = await cache.match(request);
     // Any other address of the folder is the document's, whatever its query.
     if (isDocument) return found || (await cache.match(DOCUMENT)) || fetch(request);
-    return found || (await caches.match(request)) || fetch(request);
+    return found || (await ofAnyVersion(request)) || fetch(request);
   };
   event.respondWith(kept());
 });

@@ -32,6 +32,8 @@ const MAX_PARTS: usize = MAX_TEXT_BYTES / PART_BYTES + 2;
 /// Second bytes of markers; the first one is 0xFF.
 mod marker {
     pub const SOF0: u8 = 0xC0;
+    pub const SOF1: u8 = 0xC1;
+    pub const SOF2: u8 = 0xC2;
     pub const RST0: u8 = 0xD0;
     pub const RST7: u8 = 0xD7;
     pub const SOI: u8 = 0xD8;
@@ -314,15 +316,15 @@ pub fn jpeg_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, 
     size().map_err(|error| SceneTextError::unreadable("JPEG", error))
 }
 
-/// Width and height in pixels of a baseline JPEG that [`is_jpeg`], from its header.
+/// Width and height in pixels of a JPEG that [`is_jpeg`], from its header: baseline, extended or progressive.
 ///
 /// # Errors
-/// If the header is damaged or has no size: that of a progressive JPEG is in another segment.
+/// If the header is damaged or has no size.
 pub(super) fn jpeg_size(header: &[u8]) -> Result<[u32; 2], Unreadable> {
     for segment in Segments::of(header) {
         let Segment { kind, content } = segment.map_err(Unreadable::new)?;
         // A frame's header: bits of a channel, height, width.
-        if kind == marker::SOF0
+        if matches!(kind, marker::SOF0 | marker::SOF1 | marker::SOF2)
             && let [_, y0, y1, x0, x1, ..] = *content
         {
             return Ok([[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side))));

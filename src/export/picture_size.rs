@@ -9,7 +9,7 @@ use super::{
 /// Maximum number of pixels of a picture that a browser decodes for a thumbnail: 128 MiB of four bytes each.
 pub const MAX_DECODED_PIXELS: u64 = 1 << 25;
 
-/// Width and height in pixels of a PNG, a baseline JPEG or a WebP with metadata that begins with `start`.
+/// Width and height in pixels of a PNG, a JPEG or a WebP with metadata that begins with `start`.
 ///
 /// Those are the pictures that can contain a scene, except for OpenEXR, which browsers do not decode.
 ///
@@ -68,6 +68,12 @@ mod tests {
     }
 
     #[test]
+    fn progressive_jpegs_have_their_size_too() {
+        let file = b"\xFF\xD8\xFF\xC2\x00\x0B\x08\x00\x04\x00\x05\x01\x01\x11\x00";
+        assert_eq!(decodable_size(file), Ok(SIZE_PX));
+    }
+
+    #[test]
     fn more_pixels_than_a_browser_should_decode_are_refused() {
         // Width and height of each format, as bytes: too many pixels, and as many as are taken.
         let sides: [fn(u32) -> Vec<u8>; 3] = [
@@ -102,9 +108,7 @@ mod tests {
                     && (shortest..file.len()).all(|end| decodable_size(&file[..end]).is_ok())
             );
         }
-        for other in
-            [&b""[..], b"GIF89a\x01\x00\x01\x00", b"\xFF\xD8\xFF\xC2\x00\x0B\x08\x00\x04\x00\x05"]
-        {
+        for other in [&b""[..], b"GIF89a\x01\x00\x01\x00"] {
             assert!(decodable_size(other).is_err());
         }
     }

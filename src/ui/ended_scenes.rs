@@ -1,14 +1,15 @@
-//! Scenes whose visits ended before a sharp picture was there, by an error of the program or of the browser.
+//! Scenes that the next visit offers instead of opening: those without a sharp picture yet, and those in whose visit
+//! the program ended.
 //!
-//! In: scenes that begin to be drawn and those that were drawn, which the shell stores. Out: whether the next visit
-//! opens a scene by itself or offers it.
+//! In: scenes that begin to be drawn and those that were drawn, which the shell stores. Out: whether a visit opens a
+//! scene by itself or offers it.
 
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of scenes that are kept, so that tabs that open at once keep one each.
-const MAX_SCENES: usize = 4;
+/// Maximum number of scenes that are kept, so that tabs that open at once have one each.
+const MAX_SCENES: usize = 8;
 
-/// Scenes on their way to a sharp picture, or whose visit ended on that way: the oldest first.
+/// Scenes without a sharp picture yet, and scenes in whose visit the program ended: the oldest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct EndedScenes(Vec<String>);
@@ -27,15 +28,15 @@ impl EndedScenes {
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Whether `scene` ended a visit.
+    /// Whether the next visit offers `scene`.
     pub fn contains(&self, scene: &str) -> bool {
         self.0.iter().any(|listed| listed == scene)
     }
 
     /// Adds `scene` as the newest.
-    pub fn add(&mut self, scene: String) {
-        self.remove(&scene);
-        self.0.push(scene);
+    pub fn add(&mut self, scene: &str) {
+        self.remove(scene);
+        self.0.push(scene.to_owned());
         self.drop_oldest();
     }
 
@@ -61,9 +62,9 @@ mod tests {
     #[test]
     fn a_scene_is_listed_until_it_is_drawn() {
         let mut scenes = EndedScenes::default();
-        scenes.add("a".to_owned());
-        scenes.add("b".to_owned());
-        scenes.add("a".to_owned());
+        scenes.add("a");
+        scenes.add("b");
+        scenes.add("a");
         assert_eq!(scenes, list(&["b", "a"]));
         scenes.remove("a");
         assert!(scenes.contains("b") && !scenes.contains("a"));
@@ -71,10 +72,10 @@ mod tests {
 
     #[test]
     fn only_the_newest_are_kept() {
-        let mut scenes = list(&["a", "b", "c", "d"]);
-        scenes.add("e".to_owned());
-        assert_eq!(scenes, list(&["b", "c", "d", "e"]));
-        assert_eq!(EndedScenes::from_json(r#"["a","b","c","d","e"]"#), scenes);
+        let mut scenes = list(&["a", "b", "c", "d", "e", "f", "g", "h"]);
+        scenes.add("i");
+        assert_eq!(scenes, list(&["b", "c", "d", "e", "f", "g", "h", "i"]));
+        assert_eq!(EndedScenes::from_json(r#"["a","b","c","d","e","f","g","h","i"]"#), scenes);
     }
 
     #[test]

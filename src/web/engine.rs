@@ -183,7 +183,7 @@ impl Engine {
         };
         self.show_gpu_errors(session);
         if let Some(times) = &mut session.piece_times {
-            times.extend(self.view.take_piece_times());
+            self.view.record_piece_times(times);
         }
         session.status = AppStatus {
             report: self.view.report(),

@@ -37,12 +37,9 @@ pub fn install() {
     }
     let previous_hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        scene_watch::note_end();
         record_error(info.to_string());
-        page::show_notice(
-            "Mandelight stopped because of an error in the program",
-            &format!("Your scene is saved. Press “Try again” to continue.\n\n{info}"),
-        );
+        page::show_stop(&info.to_string());
+        scene_watch::note_end();
         previous_hook(info);
     }));
 }

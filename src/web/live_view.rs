@@ -104,11 +104,13 @@ impl LiveView {
         is_at_rest && report.samples_done > 0 && !view.has_pending_scene()
     }
 
-    /// The GPU times of the pieces of work that have finished since the last call, once this has been called.
-    pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
-        let Some(view) = &mut self.view else { return Vec::new() };
-        view.watch_piece_times(true);
-        view.take_piece_times()
+    /// Adds the GPU times of the pieces of work that have finished since the last call to `times`; they are recorded from
+    /// the first call on.
+    pub fn record_piece_times(&mut self, times: &mut Vec<PieceTime>) {
+        if let Some(view) = &mut self.view {
+            times.extend(view.take_piece_times());
+            view.watch_piece_times(true);
+        }
     }
 
     /// Compute dispatches so far.

@@ -12,6 +12,9 @@ extern "C" {
     /// The boot script's notice over the page, which needs no GPU.
     #[wasm_bindgen(catch, js_namespace = window, js_name = mandelightNotice)]
     fn mandelight_notice(text: &str, detail: &str) -> Result<(), JsValue>;
+    /// Its notice that the program has ended by an error.
+    #[wasm_bindgen(catch, js_namespace = window, js_name = mandelightStop)]
+    fn mandelight_stop(reason: &str) -> Result<(), JsValue>;
 }
 
 /// The browser's window; `None` only in a worker, where nothing but decoding runs.
@@ -63,6 +66,13 @@ pub fn is_hidden() -> bool {
 pub fn show_notice(text: &str, detail: &str) {
     if mandelight_notice(text, detail).is_err() {
         log::error!("{text}: {detail}");
+    }
+}
+
+/// Shows that the program has ended by an error in it, for a `reason` in a programmer's words.
+pub fn show_stop(reason: &str) {
+    if mandelight_stop(reason).is_err() {
+        log::error!("the program has ended: {reason}");
     }
 }
 

@@ -64,7 +64,7 @@ pub struct Session {
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
-    /// The project of which earlier visits had trouble, so that this one began with another.
+    /// The project that ended or hindered earlier visits, so that this one began with another.
     offered: Option<Offered>,
     /// Time of this visit's last loss of the GPU, in seconds since 1970.
     lost_at_secs: Option<f64>,
@@ -77,8 +77,10 @@ pub struct Session {
 /// A project that is offered instead of opened.
 struct Offered {
     project: Project,
-    /// Whether the page ended with it; otherwise it lost the GPU.
+    /// Whether a visit ended with it; otherwise it lost the GPU several times.
     has_ended: bool,
+    /// How it would begin by its losses of the GPU.
+    start: Start,
 }
 
 /// The app's status, for the interface and the tests.
@@ -111,25 +113,25 @@ impl Session {
         let known_formulas = settings.formulas.clone();
         let opening = Project::from(presets::opening());
         let named = opened.project.unwrap_or_else(|| opening.clone());
-        let has_ended = named != opening && scene_watch::has_ended_with(&named.scene);
-        let start = if has_ended { Start::Offer } else { device_loss::start(&named.scene) };
-        let (project, offered) = match start {
-            Start::Offer if named != opening => {
-                (opening, Some(Offered { project: named, has_ended }))
-            }
-            _ => (named, None),
+        let start = device_loss::start(&named.scene);
+        let has_ended = scene_watch::has_ended_with(&named.scene);
+        let is_offered = named != opening && (has_ended || start == Start::Offer);
+        let (project, offered) = match is_offered {
+            true => (opening, Some(Offered { project: named, has_ended, start })),
+            false => (named, None),
         };
         scene_watch::watch(&project.scene);
-        let safe_mode = match (start, &offered) {
-            (Start::Open(safe_mode), _) => safe_mode,
+        let safe_mode = match (&offered, start) {
             // The offer has a notice of its own.
-            (Start::Offer, Some(_)) => SafeMode::Off,
-            (Start::Offer, None) => SafeMode::Paused,
+            (Some(_), _) => SafeMode::Off,
+            (None, Start::Open(safe_mode)) => safe_mode,
+            (None, Start::Offer) => SafeMode::Paused,
         };
         let mut interface = Interface::new(project, settings);
-        if offered.is_none() {
-            interface.editor_mut().restore_steps(autosave::stored_steps());
-        }
+        // The offered project is the last step, so that nothing is lost if the offer is not taken.
+        let mut steps = autosave::stored_steps();
+        steps.extend(offered.iter().map(|offered| offered.project.clone()));
+        interface.editor_mut().restore_steps(steps);
         let (favourites, list_problem) = stored::favourites();
         *interface.favourites_mut() = favourites;
         let mailbox = Mailbox::default();
@@ -192,7 +194,7 @@ impl Session {
         }
     }
 
-    /// Shows the notice that offers the scene of which earlier visits had trouble, if there is one.
+    /// Shows the notice that offers the scene which ended or hindered earlier visits, if there is one.
     fn show_offer(&mut self) {
         if let Some(offered) = &self.offered {
             let text = match offered.has_ended {
@@ -211,11 +213,11 @@ impl Session {
     /// Opens the offered scene; one that lost the GPU with a smaller picture until one is complete.
     pub fn take_offer(&mut self) {
         self.toast.take();
-        if let Some(Offered { project, has_ended }) = self.offered.take() {
+        if let Some(Offered { project, start, .. }) = self.offered.take() {
             scene_watch::watch(&project.scene);
             self.interface.replace_project(project);
-            if !has_ended {
-                self.has_lost_scene = true;
+            if start != Start::Open(SafeMode::Off) {
+                self.has_lost_scene = start != Start::Open(SafeMode::Reduced);
                 self.enter_safe_mode(SafeMode::Reduced);
             }
             self.report_missing_environment_map();

@@ -31,9 +31,9 @@ pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: L
 pub const LOSSES: StorageKey =
     StorageKey { name: "mandelight.losses", lifetime: Lifetime::Permanent };
 
-/// The scenes on their way to a sharp picture, as JSON.
-pub const OPENING: StorageKey =
-    StorageKey { name: "mandelight.opening", lifetime: Lifetime::Permanent };
+/// The scenes that the next visit offers instead of opening, as JSON.
+pub const UNFINISHED: StorageKey =
+    StorageKey { name: "mandelight.unfinished", lifetime: Lifetime::Permanent };
 
 /// A scene as text, by which stored lists know it: its link, or its document if too large for one.
 pub fn scene_text(scene: &Scene) -> String {

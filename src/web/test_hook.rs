@@ -1,7 +1,7 @@
 //! `window.mandelight`: the object by which browser tests drive the page, with `?test` only.
 //!
-//! In: calls from JavaScript. Out: plain objects. Except for losing the device, failing decoders and
-//! ending the program, a visitor can do all that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
+//! In: calls from JavaScript. Out: plain objects. Except for losing the device, failing decoders and ending the
+//! program, a visitor can do all that the hook does. It also locates the widgets, which a canvas hides from a browser.
 
 use std::{cell::RefCell, rc::Rc};
 

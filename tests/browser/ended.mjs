@@ -7,11 +7,9 @@ import { Visit, visit } from "./visit.mjs";
 await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
-  // Browsers ask for it where a page links no icon.
-  await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   const stored = (key) => v.tab.evaluate((name) => localStorage.getItem(name) ?? "", key);
   /** How many scenes are on their way to a picture, or were when their visit ended. */
-  const marks = async () => JSON.parse((await stored("mandelight.opening")) || "[]").length;
+  const marks = async () => JSON.parse((await stored("mandelight.unfinished")) || "[]").length;
   const marked = (count) => v.until(`${count} marks`, async () => (await marks()) === count, 120);
   await page.open();
   const quick = JSON.parse(await page.scene());
@@ -46,30 +44,39 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   // A first frame without end, in a tab that is then killed.
   await v.tab.goto(`${v.address}licenses.txt`);
   await v.tab.evaluate(() => sessionStorage.clear());
-  const second = Object.assign(new Visit(v.out, v.server, v.context), { seen: v.seen });
-  await second.open();
-  second.provoked = /the tab crashed/;
-  await second.tab.addInitScript(() => {
+  const other = async (prevent) => {
+    const tab = Object.assign(new Visit(v.out, v.server, v.context), { seen: v.seen });
+    await tab.open();
+    await tab.tab.addInitScript(prevent);
+    return tab;
+  };
+  const hung = await other(() => {
     GPUQueue.prototype.submit = () => {
       for (;;);
     };
   });
-  const browser = await v.context.newCDPSession(second.tab);
-  const crashed = second.tab.waitForEvent("crash", { timeout: 60_000 });
-  await second.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_LINK}`, { waitUntil: "commit" });
+  hung.provoked = /the tab crashed/;
+  const browser = await v.context.newCDPSession(hung.tab);
+  await hung.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_LINK}`, { waitUntil: "commit" });
   await marked(1);
+  const crashed = hung.tab.waitForEvent("crash", { timeout: 60_000 });
   browser.send("Page.crash").catch(() => {});
   await crashed;
   await page.open(process.env.MANDELIGHT_LINK);
   await page.says("The page stopped");
   scenes.instead_of_link = await page.scene();
+  await v.tab.goto(`${v.address}licenses.txt`);
 
-  // A visit that is hidden, or loaded again, before its first sharp picture ends in good order.
-  await v.tab.goto("about:blank");
-  await v.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_OTHER_LINK}`, { waitUntil: "commit" });
-  await v.until("the page to start", () => page.report());
+  // A visit that is hidden, or loaded again, before its first sharp picture has not ended by an error. Its GPU never
+  // finishes, until it is loaded again.
+  const slow = await other(() => {
+    if (!sessionStorage.getItem("finishes")) GPUQueue.prototype.onSubmittedWorkDone = () => new Promise(() => {});
+  });
+  const slowPage = new Mandelight(slow);
+  await slow.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_OTHER_LINK}`);
+  await v.until("the page to start", () => slowPage.report());
   await marked(2);
-  const hide = (isHidden) => v.tab.evaluate((value) => {
+  const hide = (isHidden) => slow.tab.evaluate((value) => {
     Object.defineProperty(document, "hidden", { value, configurable: true });
     document.dispatchEvent(new Event("visibilitychange"));
     delete document.hidden;
@@ -77,7 +84,10 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await hide(true);
   v.seen.hidden = await marks();
   await hide(false);
-  await v.tab.reload();
-  await page.firstPicture();
-  scenes.reloaded = await page.scene();
+  v.seen.shown_again = await marks();
+  v.seen.samples = (await slowPage.report()).samplesDone;
+  await slow.tab.evaluate(() => sessionStorage.setItem("finishes", "yes"));
+  await slow.tab.reload();
+  await slowPage.firstPicture();
+  scenes.reloaded = await slowPage.scene();
 });

@@ -5,8 +5,6 @@ import { visit } from "./visit.mjs";
 
 await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
-  // Browsers ask for it where a page links no icon.
-  await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   await v.tab.goto(`${v.address}licenses.txt`);
   const settings = { more_open: true, sections: { export: true }, export: { times: 0, typed_px: [64, 40] } };
   await v.tab.evaluate((text) => localStorage.setItem("mandelight.settings", text), JSON.stringify(settings));

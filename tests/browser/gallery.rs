@@ -12,9 +12,9 @@ use crate::{
     visit::{Visit, folder_of},
 };
 
-/// A folder of pictures with their list, and the scenes of its two whole pictures, a red and a blue one.
-pub fn pictures() -> (PathBuf, [Scene; 2]) {
-    let folder = folder_of("gallery-pictures");
+/// A folder of pictures with their list for a visit, and the scenes of its two whole pictures, a red and a blue one.
+pub fn pictures(script: &str) -> (PathBuf, [Scene; 2]) {
+    let folder = folder_of(&format!("{script}-pictures"));
     fs::create_dir_all(&folder).unwrap();
     let [first, second] = [2, 4].map(|index| (presets::opening_scenes()[index].scene)());
     for (name, scene, rgb) in
@@ -22,13 +22,12 @@ pub fn pictures() -> (PathBuf, [Scene; 2]) {
     {
         let mut png = PngStream::new(Vec::new(), [48, 30], &document::to_json(scene)).unwrap();
         png.write_pixels(&rgb.repeat(48 * 30)).unwrap();
-        let png = png.finish().unwrap();
-        // The same file as the header of a picture that would fill gigabytes.
-        let mut huge = png.clone();
-        huge.splice(16..24, [23_000_u32.to_be_bytes(); 2].concat());
-        fs::write(folder.join("huge.png"), huge).unwrap();
-        fs::write(folder.join(name), png).unwrap();
+        fs::write(folder.join(name), png.finish().unwrap()).unwrap();
     }
+    // A file of few bytes with the header of a picture that would fill gigabytes.
+    let mut huge = fs::read(folder.join("b.png")).unwrap();
+    huge.splice(16..24, [23_000_u32.to_be_bytes(); 2].concat());
+    fs::write(folder.join("huge.png"), huge).unwrap();
     let files = ["first one.png", "b.png", "missing.png", "huge.png"].map(str::to_owned);
     let list = Gallery::new("Two of a host", files).unwrap().to_json();
     fs::write(folder.join("gallery.json"), list).unwrap();
@@ -38,7 +37,7 @@ pub fn pictures() -> (PathBuf, [Scene; 2]) {
 
 #[test]
 fn a_gallery_of_the_address_is_shown_and_opened() {
-    let (folder, [first, second]) = pictures();
+    let (folder, [first, second]) = pictures("gallery");
     let visit = Visit::run_with("gallery", [("MANDELIGHT_PICTURES", &folder)]);
     let shown = Picture::read_png(&visit.folder.join("gallery-720x420.png"));
     let card = |index: usize| {

@@ -201,8 +201,18 @@ export class Mandelight {
     const { mouse } = this.tab;
     await mouse.move(x, y);
     await mouse.down();
+    // Slow frames would take the whole drag at once.
+    await this.frameDrawn();
     await mouse.move(x + dx, y + dy, { steps: MOVE_STEPS });
+    await this.frameDrawn();
     await mouse.up();
+  }
+
+  /** Waits until the page has drawn a frame with all events so far. */
+  frameDrawn() {
+    return this.tab.evaluate(() => new Promise((resolve) => {
+      requestAnimationFrame(() => requestAnimationFrame(resolve));
+    }));
   }
 
   /** Writes the picture's pixels, read from the GPU, to `<name>.rgba`, and records their size. */

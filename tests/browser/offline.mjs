@@ -52,8 +52,11 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
     if (/\.(js|css|webmanifest)$/.test(name)) v.server.edits[next(name)] = renamed;
   }
   v.server.edits["index.html"] = renamed;
-  const version = /^const VERSION = ".*";$/m;
-  v.server.edits["service-worker.js"] = (text) => renamed(text).replace(version, 'const VERSION = "another";');
+  const declared = /^const VERSION = ".*";$/m;
+  const publish = (version) => {
+    v.server.edits["service-worker.js"] = (text) => renamed(text).replace(declared, `const VERSION = "${version}";`);
+  };
+  publish("another");
   await v.tab.reload();
   await page.firstPicture();
   const script = () => v.tab.evaluate(() => document.querySelector("script").src);
@@ -62,8 +65,15 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   await v.screenshot("update-480x320");
   await v.tab.click("#update-later");
   v.seen.put_off = !(await offered()) && !(await script()).includes("-next.");
+
+  // A version after that takes its place.
+  publish("third");
   await v.tab.reload();
   await page.firstPicture();
+  await v.until("the third version", () => v.tab.evaluate(async () => {
+    const { waiting, installing } = await navigator.serviceWorker.getRegistration();
+    return waiting && !installing && (await caches.keys()).some((name) => name.endsWith("-third"));
+  }), 60);
   await v.until("the offer to come again", offered);
 
   // Another tab stays with the version that it shows, and still loads parts of it.

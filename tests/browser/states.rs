@@ -11,7 +11,7 @@ fn each_state_of_the_interface_fits_the_window() {
     let quaternions = presets::formulas().iter().find(|it| it.id() == "quaternion-julia");
     let mut formula = (quaternions.expect("a scene of a formula with a text").scene)();
     formula.quality.samples = 1;
-    let (pictures, _) = gallery::pictures();
+    let (pictures, _) = gallery::pictures("states");
     let formula = document::to_json(&formula);
     let visit = Visit::run_with(
         "states",

@@ -15,14 +15,12 @@ const PERMANENT = [
   "mandelight.settings",
   "mandelight.favourites",
   "mandelight.losses",
-  "mandelight.opening",
+  "mandelight.unfinished",
 ];
 const OF_TAB = ["mandelight.tab", "mandelight.steps"];
 
 await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) => {
   const page = new Mandelight(v);
-  // Browsers ask for it where a page links no icon.
-  await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   const scenes = (v.seen.scenes = {});
   v.seen.notices = {};
 

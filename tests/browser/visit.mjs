@@ -81,6 +81,8 @@ export class Visit {
   /** Opens a tab and records every error in it. */
   async open() {
     this.tab = await this.context.newPage();
+    // Browsers ask for it where a page links no icon.
+    await this.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
     const record = (kind, text) => {
       if (this.provoked?.test(text)) return;
       // A host that is down makes requests fail, on purpose.

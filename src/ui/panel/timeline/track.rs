@@ -69,7 +69,8 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let scale = scale_of(ui, &response, rect, path);
 
-    if (response.dragged() || response.clicked())
+    // At low frame rates, a drag's last movement and its end arrive in one frame.
+    if (response.dragged() || response.drag_stopped() || response.clicked())
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let is_near = |secs: f64| (scale.x(secs) - pointer.x).abs() < SNAP;
