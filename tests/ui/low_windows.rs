@@ -1,6 +1,6 @@
 //! Low windows, such as a phone that lies on its side: the picture keeps room, and rows scroll sideways.
 
-use egui::{Rect, accesskit::Role};
+use egui::{PointerButton, Rect, accesskit::Role};
 use egui_kittest::{
     Harness,
     kittest::{NodeT as _, Queryable as _},
@@ -71,6 +71,26 @@ fn the_keyboard_reaches_what_is_scrolled_out_of_the_timeline() {
         let at = button(&harness, name).rect();
         assert!(is_seen(&harness, name), "{name}: {at:?} in {strip:?}");
     }
+}
+
+/// While a finger holds it, a sheet has any height.
+#[test]
+fn a_held_sheet_ends_at_the_window_s_edge() {
+    let window = [390.0, 844.0];
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), window));
+    touch(&mut harness);
+    let from = rect(&harness, "sheet handle").center();
+    pointer(&harness, from, PointerButton::Primary, true, egui::Modifiers::NONE);
+    let mut heights = Vec::new();
+    for height in (54..230).step_by(4) {
+        harness.event(egui::Event::PointerMoved(egui::pos2(from.x, window[1] - height as f32)));
+        harness.run_steps(2);
+        let panel = rect(&harness, "panel");
+        assert!((panel.bottom() - window[1]).abs() < 0.5, "{panel:?} held at {height}");
+        heights.push(panel.height());
+    }
+    assert!(heights.is_sorted() && heights[0] < 100.0, "{heights:?}");
+    assert!(heights.last().is_some_and(|height| *height > 180.0), "{heights:?}");
 }
 
 #[test]

@@ -143,7 +143,9 @@ fn scrolled_and_saving(ui: &mut Ui, cx: &mut Context<'_>) {
 }
 
 fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
-    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+    // A sheet that a finger holds may leave hardly any room.
+    let area = ScrollArea::vertical().auto_shrink([false, false]).min_scrolled_height(0.0);
+    area.show(ui, |ui| {
         let content = UiBuilder::new().max_rect(content_area(ui));
         ui.scope_builder(content, |ui| {
             reveal_focus(ui, |ui| {
