@@ -163,6 +163,7 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
   await v.tab.goto(`${v.address}?test&gallery=${encodeURIComponent("../../pictures/")}`);
   await page.firstPicture();
   await sampled(1);
+  await drag(-0.4);
   if (await isHidden()) await click("panel toggle");
   await page.rested("a card", () => page.rect("gallery 0"));
   await shootSettled("gallery");
