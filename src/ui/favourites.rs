@@ -98,7 +98,7 @@ pub struct Favourites {
 impl Favourites {
     /// The views of an earlier visit; those that cannot be read are kept for the program that can.
     ///
-    /// Views beyond [`MAX_FAVOURITES`] are kept likewise until there is room.
+    /// Views beyond the hundredth are kept likewise until there is room.
     ///
     /// # Errors
     /// A text that is no list at all.
