@@ -14,7 +14,6 @@ import { visit } from "../../tests/browser/visit.mjs";
 
 /** How long each scene is drawn: a software GPU of few cores takes longer than the native program to begin. */
 const SCENE_MS = Number(process.env.MANDELIGHT_SCENE_MS ?? 4000);
-const DEFAULT_BUDGET_MS = 16;
 
 await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) => {
   const page = new Mandelight(v);
@@ -27,14 +26,14 @@ await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) =>
   const take = () => v.tab.evaluate(() => window.mandelight.takePieceTimes());
   await take();
   const folder = process.env.MANDELIGHT_SCENES;
-  const all = [];
+  const [all, allDisplays] = [[], []];
   for (const set of ["gallery", "random", "expensive"]) {
     const files = (await readdir(join(folder, set))).sort();
     const pieces = [];
     const displays = [];
     for (const file of files) {
       const text = await readFile(join(folder, set, file), "utf8");
-      const budget = JSON.parse(text).scene.quality?.motion_budget_ms ?? DEFAULT_BUDGET_MS;
+      const budget = JSON.parse(text).scene.quality.motion_budget_ms;
       await v.tab.evaluate((json) => window.mandelight.setScene(json), text);
       await new Promise((resolve) => setTimeout(resolve, SCENE_MS));
       for (const [ms, isDisplay] of await take()) {
@@ -44,8 +43,9 @@ await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) =>
     }
     print(`${files.length} of ${set}`, pieces, displays);
     all.push(...pieces);
+    allDisplays.push(...displays);
   }
-  print("all", all, []);
+  print("all", all, allDisplays);
 });
 
 function print(name, pieces, displays) {

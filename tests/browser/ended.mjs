@@ -1,5 +1,5 @@
-// Visits that end by an error: the next one offers their scene instead of opening it. Visits that end in good order
-// open theirs again.
+// Visits that end by an error: the next one offers their scene instead of opening it. After any other end, it opens
+// theirs again.
 
 import { Mandelight } from "./mandelight.mjs";
 import { Visit, visit } from "./visit.mjs";

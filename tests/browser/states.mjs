@@ -153,7 +153,7 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
   await shoot("update");
   await v.tab.evaluate(() => {
     document.getElementById("update").hidden = true;
-    window.mandelightNotice("Mandelight stopped because of an error in the program", "Your scene is saved.");
+    window.mandelightStop("a panic of the test");
   });
   await shoot("stopped");
 

@@ -1,6 +1,6 @@
 //! Nothing a hand or a file can do breaks the interface, or makes a scene invalid.
 
-use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, TouchPhase, pos2, vec2};
+use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use mandelight::scene::{
     EnvironmentLight, GradientStop, MAX_GRADIENT_STOPS, MAX_LIGHTS, PointLight, Scene, dice, param,
 };
@@ -79,13 +79,7 @@ fn event(dice: &mut Dice, size: [f32; 2], down: &mut bool) -> Event {
                 [dice.below(3) as usize];
             Event::PointerButton { pos: at, button, pressed: *down, modifiers }
         }
-        7 => Event::MouseWheel {
-            unit: MouseWheelUnit::Point,
-            delta: vec2(0.0, dice.part() * 400.0 - 200.0),
-            phase: TouchPhase::Move,
-            source: egui::MouseWheelSource::Unknown,
-            modifiers: Modifiers::NONE,
-        },
+        7 => wheel(dice.part() * 400.0 - 200.0),
         8 => Event::Text(["9", "-", "1e9", "nan", ".5"][dice.below(5) as usize].to_owned()),
         _ => {
             let keys = [
