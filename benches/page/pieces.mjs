@@ -4,18 +4,20 @@
 // MANDELIGHT_DIST=dist MANDELIGHT_CHROMIUM=/usr/bin/chromium MANDELIGHT_OUT=target/pieces MANDELIGHT_SCENES=target/scenes \
 //     node benches/page/pieces.mjs
 //
-// One view opens scene after scene, some seconds each, and times every piece from its submission, or the end of the piece
-// before it, until the browser reports it done. Prints the times in motion budgets, as the native benchmark does.
+// One view opens scene after scene, some seconds each, and the GPU's own timestamps measure every submit: pieces of pictures,
+// displays, and frames of the interface. Prints the times in motion budgets, as the native benchmark does.
 
 import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Mandelight } from "../../tests/browser/mandelight.mjs";
 import { visit } from "../../tests/browser/visit.mjs";
+import { takeSubmits, watchSubmits } from "./gpu_times.mjs";
 
 /** How long each scene is drawn: a software GPU of few cores takes longer than the native program to begin. */
 const SCENE_MS = Number(process.env.MANDELIGHT_SCENE_MS ?? 4000);
 
 await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) => {
+  await watchSubmits(v.context);
   const page = new Mandelight(v);
   await page.open();
   const { mouse } = v.tab;
@@ -23,38 +25,41 @@ await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) =>
   await page.settled();
   const { width, height } = await page.report();
   console.log(`pictures of ${width}x${height}`);
-  const take = () => v.tab.evaluate(() => window.mandelight.takePieceTimes());
-  await take();
+  await takeSubmits(v.tab);
   const folder = process.env.MANDELIGHT_SCENES;
-  const [all, allDisplays] = [[], []];
+  const all = [];
   for (const set of ["gallery", "random", "expensive"]) {
     const files = (await readdir(join(folder, set))).sort();
-    const pieces = [];
-    const displays = [];
+    const submits = [];
     for (const file of files) {
       const text = await readFile(join(folder, set, file), "utf8");
       const budget = JSON.parse(text).scene.quality.motion_budget_ms;
       await v.tab.evaluate((json) => window.mandelight.setScene(json), text);
       await new Promise((resolve) => setTimeout(resolve, SCENE_MS));
-      for (const [ms, isDisplay] of await take()) {
-        if (isDisplay) displays.push(ms);
-        else pieces.push({ ms, budgets: ms / budget, name: `${set}/${file}` });
+      for (const { name, ms } of await takeSubmits(v.tab)) {
+        submits.push({ kind: name, ms, budgets: ms / budget, scene: `${set}/${file}` });
       }
     }
-    print(`${files.length} of ${set}`, pieces, displays);
-    all.push(...pieces);
-    allDisplays.push(...displays);
+    print(`${files.length} of ${set}`, submits);
+    all.push(...submits);
   }
-  print("all", all, allDisplays);
+  print("all", all);
 });
 
-function print(name, pieces, displays) {
-  const budgets = pieces.map((piece) => piece.budgets).sort((a, b) => a - b);
-  const at = (part) => budgets[Math.floor(part * (budgets.length - 1))]?.toFixed(2);
+/** The submits that trace samples, those that display them, and the interface's. */
+function print(name, submits) {
+  const of = (kind) => submits.filter((submit) => submit.kind === kind);
+  const longest = (some) => some.reduce((most, submit) => (submit.ms > most.ms ? submit : most), { ms: 0, scene: "" });
+  const at = (part, values) => values.toSorted((a, b) => a - b)[Math.floor(part * (values.length - 1))] ?? 0;
+  const pieces = of("trace");
+  const budgets = pieces.map((piece) => piece.budgets);
   const over = (100 * budgets.filter((it) => it > 2).length) / budgets.length;
-  const longest = pieces.reduce((most, piece) => (piece.ms > most.ms ? piece : most), { ms: 0, name: "" });
+  const most = longest(pieces);
+  const frames = submits.filter((submit) => submit.kind.startsWith("egui")).map((frame) => frame.ms);
   console.log(
-    `${name}: ${pieces.length} pieces, median ${at(0.5)} budgets, 99 % ${at(0.99)}, over two ${over.toFixed(1)} %, ` +
-      `longest ${longest.ms.toFixed(0)} ms (${longest.name}), longest display ${Math.max(0, ...displays).toFixed(0)} ms`,
+    `${name}: ${pieces.length} pieces, median ${at(0.5, budgets).toFixed(2)} budgets, 99 % ${at(0.99, budgets).toFixed(2)}, ` +
+      `over two ${over.toFixed(1)} %, longest ${most.ms.toFixed(0)} ms (${most.scene}); ` +
+      `longest display ${longest(of("display")).ms.toFixed(0)} ms; ` +
+      `${frames.length} frames of the interface, median ${at(0.5, frames).toFixed(1)} ms, 99 % ${at(0.99, frames).toFixed(1)} ms`,
   );
 }

@@ -168,7 +168,20 @@ impl<'a> Recorder<'a> {
         inputs: &'a Inputs,
         dispatches: &'a mut Dispatches,
     ) -> Self {
-        let mut encoder = layouts.gpu.device.create_command_encoder(&Default::default());
+        Self::named("passes", layouts, pipelines, targets, inputs, dispatches)
+    }
+
+    /// An empty submit, which tools of the GPU call `label`.
+    pub fn named(
+        label: &str,
+        layouts: &'a Layouts,
+        pipelines: &'a dyn PipelineSource,
+        targets: &'a Targets,
+        inputs: &'a Inputs,
+        dispatches: &'a mut Dispatches,
+    ) -> Self {
+        let named = wgpu::CommandEncoderDescriptor { label: Some(label) };
+        let mut encoder = layouts.gpu.device.create_command_encoder(&named);
         let mut compute = encoder.begin_compute_pass(&Default::default()).forget_lifetime();
         compute.set_bind_group(1, &targets.center.group, &[]);
         compute.set_bind_group(2, &targets.film_group, &[]);

@@ -408,7 +408,8 @@ impl View {
         let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
         let batches = work.batches(self.targets.batch_workgroups);
         let commands = batches.map(|batch| {
-            let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
+            let mut recorder =
+                Recorder::named(work.name(), layouts, &passes, &self.targets, inputs, dispatches);
             recorder.tasks = tasks;
             recorder.upsample_level = upsample_level;
             recorder.denoises = denoises;

@@ -10,6 +10,9 @@ use crate::scene::{Camera, EnvironmentLight, Lights, Scene, follow, param};
 /// What the picture says while it waits for the click.
 pub const HINT: &str = "Click a place to light it · Esc to stop";
 
+/// What it says to someone who has come to it by keyboard.
+pub const KEYBOARD_HINT: &str = "Enter lights the middle · Esc to stop";
+
 /// Distances of a point light from the place, in view units.
 const DISTANCES: [f64; 2] = [0.1, 1.5];
 
@@ -30,12 +33,14 @@ impl LightClick {
         self.waits = !self.waits;
     }
 
-    /// Where in the window a click of this frame asks for light.
+    /// Where in the window a click of this frame asks for light: a keyboard's click in the view's middle.
     pub fn asked(&mut self, ui: &Ui, view: &Response) -> Option<Pos2> {
         let is_asked = self.waits || ui.input(|i| i.modifiers.alt && i.modifiers.shift);
-        let at = view.interact_pointer_pos().filter(|_| view.clicked() && is_asked)?;
+        if !(view.clicked() && is_asked) {
+            return None;
+        }
         self.waits = false;
-        Some(at)
+        Some(view.interact_pointer_pos().unwrap_or(view.rect.center()))
     }
 }
 

@@ -180,7 +180,7 @@ impl Timeline {
             Command::UpdateKey => {
                 if let Some(index) = path.key_at(self.secs) {
                     project.path.keys[index].scene = Arc::new(project.scene.clone());
-                    self.aside = None;
+                    self.forget_if_stored(&project.scene);
                 }
             }
             Command::DeleteKey => {
@@ -222,8 +222,13 @@ impl Timeline {
         {
             self.secs = secs;
             self.selected = Some(index);
-            self.aside = None;
+            self.forget_if_stored(&project.scene);
         }
+    }
+
+    /// Keeps the user's own view aside unless `stored`, the scene of a key, is that view.
+    fn forget_if_stored(&mut self, stored: &Scene) {
+        self.aside.take_if(|own| **own == *stored);
     }
 
     /// Ends a frame of the interface: advances the playback and updates the view.
@@ -253,6 +258,10 @@ impl Timeline {
         let follows = std::mem::take(&mut self.follows);
         if std::mem::take(&mut self.returns) {
             if let Some(own) = self.aside.take() {
+                // The view that it replaces is the user's own too, unless it is the path's.
+                if !self.was_on_path && *own != project.scene {
+                    self.aside = Some(Box::new(project.scene.clone()));
+                }
                 editor.show(*own, self.was_on_path);
             }
         } else if follows || path_changed_below {
@@ -263,8 +272,6 @@ impl Timeline {
                 }
                 editor.show(scene, was_on_path);
             }
-        } else if scene_edited {
-            self.aside = None;
         }
     }
 

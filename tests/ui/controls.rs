@@ -224,6 +224,19 @@ fn gradient_stops_are_added_and_removed() {
     let stops = &scene(&harness).surface.gradient;
     assert_eq!(stops.len(), count + 1);
     assert!(stops.iter().any(|stop| (stop.position - 0.5).abs() < 0.01));
+    // Without a pointer, in the widest gap.
+    let widest =
+        stops.windows(2).map(|pair| pair[1].position - pair[0].position).fold(0.0, f64::max);
+    button(&harness, "Gradient").click_accesskit();
+    harness.run();
+    button(&harness, "Gradient").focus();
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    let stops = &scene(&harness).surface.gradient;
+    assert_eq!(stops.len(), count + 3);
+    let gaps = stops.windows(2).map(|pair| pair[1].position - pair[0].position);
+    assert!(gaps.clone().filter(|gap| (gap - widest / 2.0).abs() < 1e-9).count() >= 2);
     for _ in 0..count + 5 {
         let remove = button(&harness, "Remove stop");
         if !remove.accesskit_node().is_disabled() {

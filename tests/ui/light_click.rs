@@ -1,6 +1,6 @@
 //! A click that lights a place.
 
-use egui::{Key, Modifiers, PointerButton, Pos2, pos2};
+use egui::{Key, Modifiers, PointerButton, Pos2, accesskit::Role, pos2};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use glam::DVec3;
 use mandelight::{
@@ -52,6 +52,25 @@ fn the_button_waits_for_one_click() {
     click(&mut harness, SURFACE, Modifiers::NONE);
     assert_eq!(*scene(&harness), after);
     assert_eq!(undo_all(&mut harness), 1);
+}
+
+#[test]
+fn enter_in_the_view_lights_its_middle() {
+    let mut pointed = lit(Scene::default());
+    let middle = pointed.state().interface.rects().get("view").expect("the view").center();
+    press_light_a_place(&mut pointed);
+    click(&mut pointed, middle, Modifiers::NONE);
+
+    let mut harness = lit(Scene::default());
+    press_light_a_place(&mut harness);
+    harness.get_by_role_and_label(Role::Canvas, "View").focus();
+    harness.run();
+    assert!(harness.query_by_label_contains("Enter lights the middle").is_some());
+    harness.key_press(Key::Enter);
+    harness.run();
+    let light = |harness: &Harness<'_, Stage>| scene(harness).lights.environment[0].clone();
+    assert_ne!(light(&harness), Scene::default().lights.environment[0]);
+    assert_eq!(light(&harness), light(&pointed));
 }
 
 #[test]

@@ -17,17 +17,23 @@ fn rect(harness: &Harness<'_, Stage>, name: &str) -> Rect {
 
 #[test]
 fn opening_the_lights_moves_nothing_above_or_under_the_pointer() {
-    let settings = Settings { more_open: true, ..Settings::default() };
-    let mut harness = stage(Scene::default(), settings, [1280.0, 2400.0]);
-    harness.run();
-    let before =
-        ["key light ball", "exposure", "more", "All lights"].map(|name| rect(&harness, name));
-    harness.get_by_label("All lights").click();
-    harness.run();
-    assert!(harness.query_by_label("Add light").is_some(), "the section is open");
-    let after =
-        ["key light ball", "exposure", "more", "All lights"].map(|name| rect(&harness, name));
-    assert_eq!(before, after);
+    for height in [2400.0, 720.0] {
+        let settings = Settings { more_open: true, ..Settings::default() };
+        let mut harness = stage(Scene::default(), settings, [1280.0, height]);
+        harness.run();
+        // Where the window is low, the panel is scrolled to the heading first.
+        harness.get_by_label("All lights").scroll_to_me();
+        harness.run();
+        let places = |harness: &Harness<'_, Stage>| {
+            ["key light ball", "exposure", "more", "All lights"].map(|name| rect(harness, name))
+        };
+        let before = places(&harness);
+        assert!(before[3].bottom() < height, "{before:?}");
+        harness.get_by_label("All lights").click();
+        harness.run();
+        assert!(harness.query_by_label("Add light").is_some(), "the section is open");
+        assert_eq!(before, places(&harness), "in a window {height} points high");
+    }
 }
 
 #[test]

@@ -155,6 +155,33 @@ fn a_view_that_the_path_replaces_is_put_aside() {
     }
 }
 
+/// What is done on the path meanwhile does not drop the view, nor the view made there.
+#[test]
+fn a_view_put_aside_stays_until_it_is_stored_or_had_back() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    let own = scene(&harness).clone();
+    harness.key_press(Key::Period);
+    harness.run();
+    // The key's view is stored again, and then changed.
+    harness.key_press(Key::K);
+    harness.run();
+    assert_eq!(path(&harness).keys.len(), project().path.keys.len() + 1);
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let other = scene(&harness).clone();
+    press(&mut harness, "Return to my view");
+    assert_eq!(*scene(&harness), own);
+    press(&mut harness, "Return to my view");
+    assert_eq!(*scene(&harness), other);
+    press(&mut harness, "Return to my view");
+    // Stored, it need not be kept; the other one is.
+    harness.key_press(Key::K);
+    harness.run();
+    press(&mut harness, "Return to my view");
+    assert_eq!(*scene(&harness), other);
+    assert!(harness.query_by_label("Return to my view").is_none());
+}
+
 #[test]
 fn the_preview_counts_as_movement() {
     let mut harness = stage(project(), open(), [1280.0, 720.0]);

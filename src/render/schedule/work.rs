@@ -185,6 +185,14 @@ pub enum Work {
 }
 
 impl Work {
+    /// What its submits are called in tools of the GPU.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trace(_) => "trace",
+            Self::Display(_) => "display",
+        }
+    }
+
     /// Parts to submit one after another: each part reuses the buffers of a batch, which hold so many workgroups.
     pub fn batches(self, batch_workgroups: u32) -> impl Iterator<Item = Self> {
         let (trace, display) = match self {

@@ -76,7 +76,9 @@ impl Interface {
             let caption = floating::caption(ui, captions, &format!("Preview: {name}"));
             self.rects.record("look preview", &caption);
         } else if self.light_click.waits() {
-            let caption = floating::caption(ui, captions, light_click::HINT);
+            let by_keyboard = response.has_focus();
+            let hint = if by_keyboard { light_click::KEYBOARD_HINT } else { light_click::HINT };
+            let caption = floating::caption(ui, captions, hint);
             self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
             // A narrow window on a desktop has the rows of a touch screen, but no fingers.

@@ -67,7 +67,7 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
                 ui.add_space(4.0);
                 color(ui, "Key light colour", "The colour of this light", &mut light.color);
                 ui.add_space(4.0);
-                let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place (Alt + Shift + click)");
+                let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle");
                 cx.rects.record("light a place", &response);
                 if response.clicked() {
                     cx.selection.light = Some(LightRef::Environment(key));

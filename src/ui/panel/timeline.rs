@@ -179,7 +179,8 @@ impl Strip<'_, '_> {
             if button(ui, "Return to path", hover) {
                 self.timeline.return_to_path();
             }
-        } else if self.timeline.has_own_view_aside() {
+        }
+        if self.timeline.has_own_view_aside() {
             let hover = "Show the view again that you had before the path was shown";
             if button(ui, "Return to my view", hover) {
                 self.timeline.return_to_own_view();

@@ -1,5 +1,7 @@
 //! The gradient editor: a bar of colours, and a handle for each stop.
 
+use std::iter;
+
 use super::hover::Help as _;
 use egui::{
     Color32, Key, Mesh, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
@@ -24,7 +26,7 @@ const SAMPLES: usize = 96;
 
 /// Shows the gradient with its stops' handles, and returns the bar's response.
 ///
-/// A click on the bar adds a stop; a drag of a handle moves a stop between its neighbours.
+/// A click on the bar adds a stop there, a keyboard's click in the widest gap; a drag of a handle moves a stop between its neighbours.
 /// `selected` is the index of the selected stop.
 pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize) -> Response {
     // The handles at both ends stay in the window.
@@ -38,12 +40,15 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
     let mut response = ui.interact(bar, ui.scope_id().with("gradient bar"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), "Gradient"));
 
-    if response.clicked()
-        && let Some(pointer) = response.interact_pointer_pos()
-        && let Some(index) = add_stop(stops, position_at(bar, pointer))
-    {
-        *selected = index;
-        response.mark_changed();
+    if response.clicked() {
+        let position = match response.interact_pointer_pos() {
+            Some(pointer) => position_at(bar, pointer),
+            None => widest_gap(stops),
+        };
+        if let Some(index) = add_stop(stops, position) {
+            *selected = index;
+            response.mark_changed();
+        }
     }
     paint_bar(ui.painter(), bar, stops);
     for index in 0..stops.len() {
@@ -55,7 +60,7 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
     let hover = if full {
         "The gradient is full. Remove a stop before you add another."
     } else {
-        "Click to add a stop. Drag the handles below to move stops."
+        "Click, or press Enter, to add a stop. Drag the handles below to move stops."
     };
     response.help(hover)
 }
@@ -98,6 +103,14 @@ pub fn add_stop(stops: &mut Vec<GradientStop>, position: f64) -> Option<usize> {
     let index = stops.partition_point(|stop| stop.position <= position);
     stops.insert(index, GradientStop { position, color });
     Some(index)
+}
+
+/// The middle of the widest gap between two stops, or between a stop and an end.
+fn widest_gap(stops: &[GradientStop]) -> f64 {
+    let inner = stops.iter().map(|stop| stop.position);
+    let positions: Vec<f64> = iter::once(0.0).chain(inner).chain(iter::once(1.0)).collect();
+    let gaps = positions.windows(2).map(|pair| (pair[1] - pair[0], 0.5 * (pair[0] + pair[1])));
+    gaps.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.5, |(_, middle)| middle)
 }
 
 /// Moves a stop to `position`, clamped to its neighbours' positions.
