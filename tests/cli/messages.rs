@@ -1,5 +1,6 @@
 //! Messages that quote files and names, and signals while the command waits.
 
+use mandelight::scene::{Scene, document};
 use mandelight_test_support::program::{code, program, said};
 
 use super::PROGRAM;
@@ -45,16 +46,40 @@ fn endless_files_are_refused() {
     if !std::path::Path::new(endless).exists() {
         return;
     }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.json");
+    std::fs::write(&scene, document::to_json(&Scene::default())).unwrap();
+    let scene = scene.to_str().unwrap();
     for (arguments, said_of_it) in [
         (&["formula", "check", endless][..], "more than 8192 bytes, the most that are read"),
         (&["scene", "--formula", endless], "more than 8192 bytes, the most that are read"),
         (&["scene", "--gradient", endless], "/dev/zero"),
         (&["render", endless, "-o", "out.png"], "at most 16777216 are read"),
+        (
+            &["render", scene, "-o", "out.png", "--environment", endless],
+            "neither a Radiance picture (.hdr) nor an OpenEXR picture (.exr)",
+        ),
     ] {
         let output = program(PROGRAM, arguments).output().unwrap();
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(said(&output).contains(said_of_it), "{arguments:?}: {}", said(&output));
     }
+
+    let list = folder.path().join("gallery.json");
+    let linked = std::process::Command::new("ln").args(["-s", endless]).arg(&list).status();
+    assert!(linked.unwrap().success());
+    let is_refused = || {
+        let mut command = program(PROGRAM, ["gallery", folder.path().to_str().unwrap()]);
+        let output = command.output().unwrap();
+        assert_eq!(code(&output), 1);
+        let text = said(&output);
+        assert!(text.contains("gallery.json: this file is not a gallery's list"), "{text}");
+    };
+    is_refused();
+    // A file that is longer than memory, of which nothing is stored.
+    std::fs::remove_file(&list).unwrap();
+    std::fs::File::create(&list).unwrap().set_len(1 << 40).unwrap();
+    is_refused();
 }
 
 /// A pipe without a reader: the command waits until somebody reads, and a signal ends it.
@@ -71,7 +96,7 @@ fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
         .stdin(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let document = mandelight::scene::document::to_json(&mandelight::scene::Scene::default());
+    let document = document::to_json(&Scene::default());
     std::io::Write::write_all(&mut child.stdin.take().unwrap(), document.as_bytes()).unwrap();
     let start = std::time::Instant::now();
     // Signals before the command waits for its reader end it too.
