@@ -7,13 +7,16 @@ use std::{
     sync::Arc,
 };
 
-use mandelight::scene::{
-    BackgroundKind, EnvironmentMap, Project, Scene,
-    environment_map::{
-        self,
-        decode::{MAX_FILE_BYTES, is_environment_map},
+use mandelight::{
+    reading::visible,
+    scene::{
+        BackgroundKind, EnvironmentMap, Project, Scene,
+        environment_map::{
+            self,
+            decode::{MAX_FILE_BYTES, is_environment_map},
+        },
+        param::{self, Param},
     },
-    param::{self, Param},
 };
 
 use super::{Failure, message, shown};
@@ -71,6 +74,7 @@ impl Environment {
 pub fn warn_of_missing_map(scene: &Scene) {
     let name = &scene.lights.rig.environment_map.name;
     if scene.background.kind == BackgroundKind::EnvironmentMap && !name.is_empty() {
+        let name = visible(name);
         message(&format!(
             "the background is {name}, which the scene does not contain: --environment FILE shows it"
         ));

@@ -164,7 +164,7 @@ impl Folder {
 }
 
 fn other_sequence(path: &Path, binding: &str) -> Failure {
-    let shown = shown(path);
+    let (shown, binding) = (shown(path), visible(binding));
     Failure::usage(format!(
         "{shown} contains frames of another scene, size, number of samples, file format or stereo layout ({binding}); choose another folder, or empty this one"
     ))

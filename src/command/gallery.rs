@@ -7,7 +7,10 @@ use std::{
     sync::Arc,
 };
 
-use mandelight::scene::gallery::{Gallery, LIST_FILE, MAX_LIST_BYTES, is_in_folder};
+use mandelight::{
+    reading::visible,
+    scene::gallery::{Gallery, LIST_FILE, MAX_LIST_BYTES, is_in_folder},
+};
 
 use super::{Failure, input, message, output::Output, shown};
 
@@ -36,6 +39,7 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
         }
         let Some(file) = path.file_name().and_then(|name| name.to_str()) else { continue };
         if !is_in_folder(file) {
+            let file = visible(file);
             message(&format!("left out: {file}: its name is too long, or has one of \\ : ? # %"));
             continue;
         }

@@ -1,7 +1,10 @@
 //! Messages that quote files and names, and signals while the command waits.
 
-use mandelight::scene::{Scene, document};
-use mandelight_test_support::program::{code, program, said};
+use mandelight::scene::{BackgroundKind, Scene, document};
+use mandelight_test_support::{
+    patience::HANG,
+    program::{code, program, said},
+};
 
 use super::PROGRAM;
 
@@ -29,6 +32,10 @@ fn messages_show_control_characters_as_escapes() {
         &["render", "-", "-o", "out.png", "--environment", escape],
         &["formula", "check", text],
         &["scene", "--turntable", escape],
+        &["scene", "--look", escape],
+        &["scene", "--hybrid", escape],
+        &["scene", "--hybrid", &format!("mandelbulb*{escape}")],
+        &["scene", "--cut", escape],
         &[escape],
     ] {
         let output = program(PROGRAM, arguments).current_dir(folder.path()).output().unwrap();
@@ -36,6 +43,56 @@ fn messages_show_control_characters_as_escapes() {
         let text = said(&output);
         let hidden = text.chars().find(|letter| letter.is_control() && *letter != '\n');
         assert_eq!(hidden, None, "{arguments:?}: {text:?}");
+        assert!(!is_forged(&text), "{arguments:?}: {text}");
+    }
+}
+
+/// Whether a line of the messages is what a name says.
+fn is_forged(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with("mandelight: all"))
+}
+
+/// Names of files, and in files, that hold a line as the command writes them.
+#[cfg(unix)]
+#[test]
+fn no_name_forges_a_line_of_messages() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        std::fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
+        std::fs::write(folder.path().join(name), text).unwrap();
+    };
+    let forged = "a\nmandelight: all is well";
+    write(&format!("{forged}/{forged}.png"), "no picture");
+
+    let mut lit = Scene::default();
+    lit.background.kind = BackgroundKind::EnvironmentMap;
+    lit.lights.rig.environment_map.name = forged.to_owned();
+    write("lit.json", &document::to_json(&lit));
+    let path = program(PROGRAM, ["scene", "--turntable", "2"]).output().unwrap().stdout;
+    write("path.json", &String::from_utf8(path).unwrap());
+    // As long as the name of a folder's sequence.
+    write("frames/sequence-\nmandelight: all.json", "");
+
+    for (arguments, exit, part) in [
+        (&["gallery", forged][..], 2, "a\\u{a}mandelight: all is well.png: its name is too long"),
+        (&["info", "--adapter", forged], 1, "named \"a\\u{a}mandelight: all is well\""),
+        (&["gallery", "none\nmandelight: all is well"], 1, "none\\u{a}mandelight"),
+        (
+            &["render", "lit.json", "-o", "-", "--stereo", "pair"],
+            2,
+            "the background is a\\u{a}mandelight: all is well, which",
+        ),
+        (
+            &["frames", "path.json", "-o", "frames", "--size", "4x4"],
+            2,
+            "(sequence-\\u{a}mandelight: all.json)",
+        ),
+    ] {
+        let output = program(PROGRAM, arguments).current_dir(folder.path()).output().unwrap();
+        let text = said(&output);
+        assert_eq!(code(&output), exit, "{arguments:?}: {text}");
+        assert!(text.contains(part), "{arguments:?}: {text}");
+        assert!(!is_forged(&text), "{arguments:?}: {text}");
     }
 }
 
@@ -107,7 +164,7 @@ fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
         if let Some(status) = child.try_wait().unwrap() {
             break status;
         }
-        assert!(start.elapsed().as_secs() < 60, "it waits for a reader");
+        assert!(start.elapsed() < HANG, "it waits for a reader");
     };
     assert!(!status.success());
 }
