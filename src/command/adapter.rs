@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use mandelight::gpu::Gpu;
+use mandelight::{gpu::Gpu, reading::visible};
 
 use super::Failure;
 
@@ -21,6 +21,8 @@ impl AdapterArguments {
             .adapter
             .or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok())
             .filter(|name| !name.is_empty());
+        // The error quotes the name. No GPU's name has control characters.
+        let wanted = wanted.as_deref().map(visible);
         pollster::block_on(Gpu::open(wanted.as_deref())).map_err(Failure::failed)
     }
 }

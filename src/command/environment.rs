@@ -2,17 +2,27 @@
 
 use std::{
     fs::File,
-    io::{BufReader, Read as _},
+    io::{self, BufReader, Read as _},
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use mandelight::scene::{
-    BackgroundKind, EnvironmentMap, Project, Scene, environment_map,
-    param::{self, Param},
+use mandelight::{
+    reading::visible,
+    scene::{
+        BackgroundKind, EnvironmentMap, Project, Scene,
+        environment_map::{
+            self,
+            decode::{MAX_FILE_BYTES, is_environment_map},
+        },
+        param::{self, Param},
+    },
 };
 
 use super::{Failure, message, shown};
+
+/// Length of the longest signature of a map, in bytes.
+const SIGNATURE_BYTES: u64 = 4;
 
 /// The arguments of an environment map.
 #[derive(clap::Args)]
@@ -64,6 +74,7 @@ impl Environment {
 pub fn warn_of_missing_map(scene: &Scene) {
     let name = &scene.lights.rig.environment_map.name;
     if scene.background.kind == BackgroundKind::EnvironmentMap && !name.is_empty() {
+        let name = visible(name);
         message(&format!(
             "the background is {name}, which the scene does not contain: --environment FILE shows it"
         ));
@@ -78,14 +89,23 @@ fn read(path: &Path) -> Result<EnvironmentMap, Failure> {
     let environment_map = if file.metadata().is_ok_and(|metadata| metadata.is_file()) {
         environment_map::decode::decode_file(&name, BufReader::new(file))
     } else {
-        // A pipe cannot be read from any position.
-        let mut bytes = Vec::new();
-        // One byte more than the limit, so that the decoder reports a file that is too large.
-        let limit = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
-        file.take(limit).read_to_end(&mut bytes).map_err(|error| failure(&error))?;
+        let bytes = read_pipe(file).map_err(|error| failure(&error))?;
         environment_map::decode(&name, &bytes)
     };
     environment_map.map_err(|error| failure(&error))
+}
+
+/// Reads a pipe or a device, which cannot be read from any position. Without a map's signature, no more than the
+/// signature is read.
+fn read_pipe(pipe: File) -> io::Result<Vec<u8>> {
+    // One byte more than the limit, so that the decoder reports a file that is too large.
+    let mut pipe = pipe.take(MAX_FILE_BYTES as u64 + 1);
+    let mut bytes = Vec::new();
+    pipe.by_ref().take(SIGNATURE_BYTES).read_to_end(&mut bytes)?;
+    if is_environment_map(&bytes) {
+        pipe.read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 fn parse_count(text: &str) -> Result<u32, String> {

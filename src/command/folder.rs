@@ -19,7 +19,12 @@ use mandelight::{
 };
 use sha2::{Digest as _, Sha256};
 
-use super::{Failure, output::Output, shown, stereo::file_of};
+use super::{
+    Failure,
+    output::{Output, remove_stale_once},
+    shown,
+    stereo::file_of,
+};
 
 /// Prefix and suffix of the binding file's name.
 const BINDING_NAME: (&str, &str) = ("sequence-", ".json");
@@ -153,6 +158,8 @@ impl Folder {
                 return Err(other_sequence(path, other));
             }
         }
+        // Where all frames exist, no file is written, which would do this.
+        remove_stale_once(path);
         Ok(Self { path: path.to_owned(), extension: sequence.format.extension() })
     }
 
@@ -164,7 +171,7 @@ impl Folder {
 }
 
 fn other_sequence(path: &Path, binding: &str) -> Failure {
-    let shown = shown(path);
+    let (shown, binding) = (shown(path), visible(binding));
     Failure::usage(format!(
         "{shown} contains frames of another scene, size, number of samples, file format or stereo layout ({binding}); choose another folder, or empty this one"
     ))

@@ -10,6 +10,7 @@ use mandelight::{
         own,
         section::{MAX_SECTION_PLANES, SectionPlane},
     },
+    reading::visible,
     scene::{Axis, Fractal, PrecisePoint, Scene},
 };
 
@@ -68,7 +69,8 @@ impl OtherFractal {
 fn section_plane(text: &str) -> Result<SectionPlane, Failure> {
     let fail = || {
         Failure::usage(format!(
-            "--cut: `{text}` is no plane; write an axis and a position, such as z=0 or -y=0.2"
+            "--cut: `{}` is no plane; write an axis and a position, such as z=0 or -y=0.2",
+            visible(text)
         ))
     };
     let (axis, position) = text.split_once('=').ok_or_else(fail)?;
@@ -99,13 +101,14 @@ fn step(text: &str) -> Result<HybridStep, Failure> {
     let (id, repeats) = text.split_once('*').unwrap_or((text, "1"));
     let formula = hybrid::find_step(id.trim()).ok_or_else(|| {
         let ids: Vec<_> = hybrid::step_formulas().map(|formula| formula.id()).collect();
-        Failure::usage(format!("--hybrid: no step is called `{id}`; there are {}", ids.join(", ")))
+        let (id, ids) = (visible(id), ids.join(", "));
+        Failure::usage(format!("--hybrid: no step is called `{id}`; there are {ids}"))
     })?;
     let mut step =
         hybrid::step(formula).map_err(|error| Failure::usage(format!("--hybrid: {error}")))?;
     let count = repeats.trim().parse().ok().filter(|count| REPEATS.accepts(f64::from(*count)));
     step.repeats = count.ok_or_else(|| {
-        let range = REPEATS.range_text();
+        let (text, range) = (visible(text), REPEATS.range_text());
         Failure::usage(format!("--hybrid: `{text}`: repeats are {range}"))
     })?;
     Ok(step)

@@ -1,13 +1,16 @@
 //! `mandelight gallery`: the list of a folder's pictures, for a page that shows them.
 
 use std::{
-    fs, io,
-    io::Write as _,
+    fs::{self, File},
+    io::{self, Read as _, Write as _},
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-use mandelight::scene::gallery::{Gallery, LIST_FILE, is_in_folder};
+use mandelight::{
+    reading::visible,
+    scene::gallery::{Gallery, LIST_FILE, MAX_LIST_BYTES, is_in_folder},
+};
 
 use super::{Failure, input, message, output::Output, shown};
 
@@ -36,6 +39,7 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
         }
         let Some(file) = path.file_name().and_then(|name| name.to_str()) else { continue };
         if !is_in_folder(file) {
+            let file = visible(file);
             message(&format!("left out: {file}: its name is too long, or has one of \\ : ? # %"));
             continue;
         }
@@ -61,15 +65,22 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
     Ok(())
 }
 
-/// A file of the list's name that is none is not replaced.
+/// Refuses to replace a file of the list's name that is not a list.
 fn check_replaceable(list: &Path) -> io::Result<()> {
-    match fs::read_to_string(list) {
-        Ok(text) if Gallery::from_json(&text).is_err() => {
-            Err(io::Error::other("this file is not a gallery's list; it was not changed"))
+    let is_file = match fs::metadata(list) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        metadata => metadata?.is_file(),
+    };
+    // Opening anything but a file might wait.
+    if is_file {
+        // One byte more than the limit, so that a longer file is no list.
+        let mut bytes = Vec::new();
+        File::open(list)?.take(MAX_LIST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+        if str::from_utf8(&bytes).is_ok_and(|text| Gallery::from_json(text).is_ok()) {
+            return Ok(());
         }
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
     }
+    Err(io::Error::other("this file is not a gallery's list; it was not changed"))
 }
 
 /// True for the files that browsers show as pictures.

@@ -2,9 +2,12 @@
 
 use std::{fs::File, io::Read as _, path::Path};
 
-use mandelight::scene::{
-    GradientStop, Scene,
-    gradient::{self, NamedGradient},
+use mandelight::{
+    reading::visible,
+    scene::{
+        GradientStop, Scene,
+        gradient::{self, NamedGradient},
+    },
 };
 
 use super::{Failure, shown};
@@ -51,7 +54,8 @@ fn stops(flag: &str, asked: &str) -> Result<Vec<GradientStop>, Failure> {
     if path.extension().is_none() && !path.exists() {
         let names: Vec<_> = gradient::library().map(|found| found.name.to_lowercase()).collect();
         return Err(fail(format!(
-            "no gradient is called `{asked}`; there are {}",
+            "no gradient is called `{}`; there are {}",
+            visible(asked),
             names.join(", ")
         )));
     }
@@ -63,7 +67,7 @@ fn stops(flag: &str, asked: &str) -> Result<Vec<GradientStop>, Failure> {
         .map_err(|error| fail(format!("{shown}: {error}")))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let found = gradient::read(&bytes, &stem).map_err(|error| fail(format!("{shown}: {error}")))?;
-    let names: Vec<_> = found.iter().map(|found| found.name.clone()).collect();
+    let names: Vec<_> = found.iter().map(|found| visible(&found.name).into_owned()).collect();
     let wanted = found.into_iter().find(|found| name.is_none_or(|name| is_called(name, found)));
     wanted.map(|found| found.stops).ok_or_else(|| {
         fail(format!("{shown} has no such gradient; there are {}", names.join(", ")))

@@ -12,6 +12,7 @@ use std::{
 
 use mandelight::{
     export,
+    reading::visible,
     scene::{
         Fractal, Project, Scene,
         document::{self, DocumentError},
@@ -104,8 +105,9 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
         let is_own =
             !path.contains('.') && parent.get("fractal").is_some_and(|f| f.get(path).is_some());
         let path = &if is_own { format!("fractal.{path}") } else { path.clone() };
-        let field = field_mut(parent, path)
-            .ok_or_else(|| Failure::usage(format!("--set: {path}: there is no such field")))?;
+        let field = field_mut(parent, path).ok_or_else(|| {
+            Failure::usage(format!("--set: {}: there is no such field", visible(path)))
+        })?;
         *field = value_like(field, text);
         if path == "fractal.formula" {
             // The new formula has defaults of its own.

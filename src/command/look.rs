@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
-use mandelight::scene::{
-    Scene,
-    looks::{self, Look, LookList},
-    presets::Preset,
+use mandelight::{
+    reading::visible,
+    scene::{
+        Scene,
+        looks::{self, Look, LookList},
+        presets::Preset,
+    },
 };
 
 use super::Failure;
@@ -35,6 +38,7 @@ fn found(asked: &str) -> Result<&'static Look, Failure> {
     looks::find(&id.join("/")).ok_or_else(|| {
         // The gradients are many: the list of all looks names them.
         let complete = looks::lists().iter().take(1).flat_map(ids).collect::<Vec<_>>().join(", ");
+        let asked = visible(asked);
         Failure::usage(format!(
             "--look: no look is called \"{asked}\"; choose one of {complete}, or a part of one, which --list-looks lists"
         ))

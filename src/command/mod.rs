@@ -160,8 +160,13 @@ fn explain(error: &clap::Error) -> ! {
     if env::args_os().all(is_plain) {
         error.exit();
     }
-    // The message quotes arguments, and colours are control characters themselves.
-    let _ = write!(io::stderr(), "{}", explanation(error));
+    // The message quotes arguments, whose lines could pass for messages, and colours are control characters.
+    let shown = env::args_os().map(|argument| visible(&argument.to_string_lossy()).into_owned());
+    let text = match CommandLine::try_parse_from(shown) {
+        Err(error) => explanation(&error),
+        Ok(_) => format!("{}\n", visible(&error.render().to_string())),
+    };
+    let _ = write!(io::stderr(), "{text}");
     process::exit(error.exit_code());
 }
 
@@ -170,7 +175,9 @@ pub fn explanation(error: &clap::Error) -> String {
     visible_lines(&error.render().to_string()).into_owned()
 }
 
-/// Writes a message for the user to standard error, without control characters: it may quote files and names.
+/// Writes a message for the user to standard error, without control characters.
+///
+/// Lines stay lines, so whoever quotes a file, a name or an argument makes it [`visible`].
 fn message(text: &str) {
     // If standard error is closed, no user can read the message.
     let _ = writeln!(io::stderr(), "mandelight: {}", visible_lines(text));

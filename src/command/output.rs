@@ -147,8 +147,8 @@ impl Drop for PartFile {
     }
 }
 
-/// Removes the temporary files of processes that were killed, the first time that `folder` is written to.
-fn remove_stale_once(folder: &Path) {
+/// Removes the temporary files of processes that were killed, the first time that this is called for `folder`.
+pub fn remove_stale_once(folder: &Path) {
     static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let is_new = SEEN.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
     if is_new {

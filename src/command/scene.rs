@@ -2,6 +2,7 @@
 
 use mandelight::{
     fractal::Surprise,
+    reading::visible,
     scene::{
         Path, Project, document,
         path::KEY_TIME,
@@ -70,8 +71,9 @@ pub fn text(arguments: &SceneArguments) -> Result<String, Failure> {
         .find(|preset| wanted.as_ref().is_none_or(|wanted| preset.id() == *wanted))
         .ok_or_else(|| {
             let names: Vec<String> = presets::all().map(Preset::id).collect();
-            let wanted = wanted.unwrap_or_default();
-            Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
+            let (wanted, names) = (wanted.unwrap_or_default(), names.join(", "));
+            let wanted = visible(&wanted);
+            Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {names}"))
         })?;
     let scene = match arguments.surprise {
         Some(seed) => Surprise::new(seed).finish(),

@@ -32,13 +32,13 @@ mod parts;
 
 use check::checked;
 use envelope::{Document, Header, KIND, READ, Scalar};
-use parse::{check_syntax, clipped, parse};
+use parse::clipped;
 use parts::LinkDocument;
 
 pub use envelope::{MAX_BYTES, VERSION};
 pub use error::DocumentError;
 pub(super) use keys::{path_value, value_of};
-pub(super) use parse::syntax_text;
+pub(super) use parse::{check_syntax, parse};
 
 fn document(scene: &Scene, path: keys::PathText) -> Document<&Scene, keys::PathText> {
     Document { mandelight: KIND.into(), version: VERSION, scene, path }

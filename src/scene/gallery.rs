@@ -4,8 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::document::syntax_text;
-use crate::reading::is_hidden;
+use super::document::{check_syntax, parse};
+use crate::reading::{at_most, is_hidden};
 
 /// The name of the list's file in its folder.
 pub const LIST_FILE: &str = "gallery.json";
@@ -43,7 +43,7 @@ pub enum GalleryError {
     /// Longer than [`MAX_LIST_BYTES`].
     #[error("the list has over {MAX_LIST_BYTES} bytes, the most that is read")]
     TooLong,
-    /// Not the JSON of a list.
+    /// Not the JSON of a list, or with over [`MAX_PICTURES`] pictures.
     #[error("the list cannot be read: {0}")]
     Syntax(String),
     /// Another kind of document, or another version.
@@ -51,7 +51,7 @@ pub enum GalleryError {
         "this is not a gallery's list, which has \"mandelight\": \"{KIND}\" and \"version\": {VERSION}"
     )]
     NotAList,
-    /// No picture, or over [`MAX_PICTURES`].
+    /// No picture; or over [`MAX_PICTURES`], for a list that is made.
     #[error("the list has {0} pictures; a gallery has 1 to {MAX_PICTURES}")]
     Count(usize),
     /// A file that is not in the list's folder, or a text that is too long.
@@ -73,6 +73,7 @@ struct Stored {
     version: u64,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     name: String,
+    #[serde(deserialize_with = "at_most::<MAX_PICTURES, _, _>")]
     pictures: Vec<StoredPicture>,
 }
 
@@ -102,8 +103,8 @@ impl Gallery {
         if text.len() > MAX_LIST_BYTES {
             return Err(GalleryError::TooLong);
         }
-        let list = serde_json::from_str(text);
-        checked(list.map_err(|error| GalleryError::Syntax(syntax_text(&error)))?)
+        let list = check_syntax(text).and_then(|()| parse(text));
+        checked(list.map_err(|error| GalleryError::Syntax(error.to_string()))?)
     }
 
     /// The list's text, which [`Self::from_json`] reads.
@@ -218,7 +219,10 @@ mod tests {
     fn what_is_no_list_is_told() {
         assert_eq!(list(""), Err(GalleryError::Count(0)));
         let many = vec![r#"{"file": "a.png"}"#; MAX_PICTURES + 1].join(",");
-        assert_eq!(list(&many), Err(GalleryError::Count(MAX_PICTURES + 1)));
+        let error = list(&many).expect_err("too many").to_string();
+        assert!(error.contains("pictures: has more than 500 entries"), "{error}");
+        let files = vec!["a.png".to_owned(); MAX_PICTURES + 1];
+        assert_eq!(Gallery::new("", files), Err(GalleryError::Count(MAX_PICTURES + 1)));
         let scene = r#"{"mandelight": "scene", "version": 1, "pictures": []}"#;
         assert_eq!(Gallery::from_json(scene), Err(GalleryError::NotAList));
         assert!(matches!(Gallery::from_json("[1]"), Err(GalleryError::Syntax(_))));
@@ -227,8 +231,15 @@ mod tests {
         };
         assert_eq!(
             text,
-            "the text ends too early: a part of the file is missing (line 1, column 15)"
+            "line 1, column 15: the text ends too early: a part of the file is missing"
         );
+        for fields in [
+            r#"["gallery",1,"R",[["a.png","A"]]]"#,
+            r#"{"mandelight":"gallery","version":1,"pictures":[["a.png","A"]]}"#,
+        ] {
+            let error = Gallery::from_json(fields).expect_err("lists for objects").to_string();
+            assert!(error.contains("expected an object with named fields"), "{error}");
+        }
         let long = " ".repeat(MAX_LIST_BYTES + 1);
         assert_eq!(Gallery::from_json(&long), Err(GalleryError::TooLong));
     }

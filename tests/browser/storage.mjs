@@ -105,6 +105,9 @@ await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) =>
   });
   await open();
   scenes.version_1 = await page.scene();
+  // The interface is drawn once its button is there.
+  await v.until("the button of the panel", () => page.rect("panel toggle"), 60);
+  v.seen.older_panel = await page.rect("panel");
 
   // Two tabs: each keeps a view, each comes back to its own scene.
   await leave();

@@ -26,6 +26,7 @@ fn no_storage_loses_work_or_stops_the_page() {
     assert_eq!(newer["favourites"][0]["title"], "of tomorrow");
     assert_eq!(exposure("older"), -0.75);
     assert_eq!(visit.scene("version_1").fractal.number("power"), Some(5.0));
+    assert_eq!(visit.seen["older_panel"], Value::Null, "an older version's closed panel is open");
 
     let kept = visit.seen["kept"].as_array().unwrap();
     let has = |value: &str| kept.iter().filter_map(Value::as_str).any(|text| text.contains(value));

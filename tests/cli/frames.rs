@@ -17,6 +17,7 @@ use mandelight::{
     },
 };
 use mandelight_test_support::{
+    patience::HANG,
     picture::Picture,
     program::{code, names_in, program, said},
 };
@@ -127,22 +128,24 @@ fn what_is_there_is_kept_and_the_rest_is_made() {
 /// What a crash of the machine or a full disk leaves in place of a frame is no frame.
 #[test]
 fn damaged_frames_are_made_again_and_other_pictures_are_left_alone() {
-    for (kind, name) in [(None, "frame_000001.png"), (Some("--exr"), "frame_000001.exr")] {
+    for format in ["png", "exr", "jpeg", "webp"] {
         let place = Workplace::new();
-        let arguments: Vec<&str> =
-            ["-o", "out", "--frames", "1..3"].into_iter().chain(kind).collect();
+        let arguments = ["-o", "out", "--frames", "1..3", "--format", format];
+        let name = format!("frame_000001.{}", if format == "jpeg" { "jpg" } else { format });
         assert_eq!(code(&place.run(&arguments)), 0);
-        let path = place.folder.path().join("out").join(name);
+        let path = place.folder.path().join("out").join(&name);
         let whole = fs::read(&path).unwrap();
         let of_other_size = {
             let mut file = whole.clone();
-            // The width in the header of a PNG; the data window of an OpenEXR file.
-            let at = match kind {
-                None => 19,
-                Some(_) => {
-                    let name = b"dataWindow\0box2i\0";
-                    file.windows(name.len()).position(|w| w == name).unwrap() + name.len() + 12
-                }
+            // The width in the header of a PNG, a WebP or a JPEG; the data window of an OpenEXR file.
+            let after = |mark: &[u8]| {
+                file.windows(mark.len()).position(|part| part == mark).unwrap() + mark.len()
+            };
+            let at = match format {
+                "png" => 19,
+                "webp" => 24,
+                "jpeg" => after(&[0xff, 0xc0, 0, 17, 8]) + 3,
+                _ => after(b"dataWindow\0box2i\0") + 12,
             };
             file[at] = 20;
             file
@@ -153,8 +156,8 @@ fn damaged_frames_are_made_again_and_other_pictures_are_left_alone() {
         let mut damages = vec![&b""[..], b"kept", &whole[..whole.len() - 1]];
         let zeros = vec![0; whole.len()];
         damages.push(&zeros);
-        // The chunks of an OpenEXR file have no checksums.
-        if kind.is_none() {
+        // Only the chunks of a PNG have checksums.
+        if format == "png" {
             damages.push(&with_hole);
         }
         for damaged in damages {
@@ -166,7 +169,7 @@ fn damaged_frames_are_made_again_and_other_pictures_are_left_alone() {
             assert!(text.contains("1 frame, 1 kept"), "{text}");
             let again = fs::read(&path).unwrap();
             // The attributes of an OpenEXR file may come in another order.
-            assert!(again.len() == whole.len() && (kind.is_some() || again == whole));
+            assert!(again.len() == whole.len() && (format == "exr" || again == whole), "{format}");
         }
         let other = path.with_file_name(name.replace('1', "2"));
         for foreign in [of_other_size, fs::read(other).unwrap()] {
@@ -272,7 +275,7 @@ fn a_killed_run_leaves_only_whole_frames_and_can_go_on() {
     let first = place.folder.path().join("out").join(export::frame_name(0));
     let patience = Instant::now();
     while !first.exists() {
-        assert!(patience.elapsed() < Duration::from_secs(120), "no frame came");
+        assert!(patience.elapsed() < HANG, "no frame came");
         std::thread::sleep(Duration::from_millis(5));
     }
     child.kill().unwrap();
@@ -285,6 +288,12 @@ fn a_killed_run_leaves_only_whole_frames_and_can_go_on() {
     assert_eq!(code(&place.run(&["-o", "out", "--samples", "200", "--frames", "..2"])), 0);
     assert_eq!(place.frame("out", 0), done);
     assert!(is_whole(&place.frame("out", 1)));
+    assert_no_parts(&place.names("out"));
+    // What another killed run leaves is removed where all frames exist, too.
+    fs::write(place.folder.path().join("out/.mandelight-1-2.part"), "half").unwrap();
+    let again = place.run(&["-o", "out", "--samples", "200", "--frames", "..2"]);
+    assert!(said(&again).contains("all 2 frames exist already"), "{}", said(&again));
+    assert_no_parts(&place.names("out"));
 }
 
 #[test]
@@ -296,7 +305,7 @@ fn an_interruption_leaves_nothing_half_made_and_says_how_to_go_on() {
     let is_under_way =
         || folder.exists() && place.names("out").iter().any(|n| n.ends_with(".part"));
     while !is_under_way() {
-        assert!(patience.elapsed() < Duration::from_secs(120), "no frame was begun");
+        assert!(patience.elapsed() < HANG, "no frame was begun");
         std::thread::sleep(Duration::from_millis(2));
     }
     let pid = child.id().to_string();
@@ -305,7 +314,11 @@ fn an_interruption_leaves_nothing_half_made_and_says_how_to_go_on() {
     assert_eq!(code(&output), 1);
     let text = said(&output);
     assert!(text.contains("interrupted") && text.contains("the same command goes on"), "{text}");
-    let names = place.names("out");
+    assert_no_parts(&place.names("out"));
+}
+
+/// No file has a temporary name.
+fn assert_no_parts(names: &[String]) {
     assert!(!names.iter().any(|name| name.ends_with(".part")), "{names:?}");
 }
 

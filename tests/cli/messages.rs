@@ -1,6 +1,10 @@
 //! Messages that quote files and names, and signals while the command waits.
 
-use mandelight_test_support::program::{code, program, said};
+use mandelight::scene::{BackgroundKind, Scene, document};
+use mandelight_test_support::{
+    patience::HANG,
+    program::{code, program, said},
+};
 
 use super::PROGRAM;
 
@@ -28,6 +32,10 @@ fn messages_show_control_characters_as_escapes() {
         &["render", "-", "-o", "out.png", "--environment", escape],
         &["formula", "check", text],
         &["scene", "--turntable", escape],
+        &["scene", "--look", escape],
+        &["scene", "--hybrid", escape],
+        &["scene", "--hybrid", &format!("mandelbulb*{escape}")],
+        &["scene", "--cut", escape],
         &[escape],
     ] {
         let output = program(PROGRAM, arguments).current_dir(folder.path()).output().unwrap();
@@ -35,6 +43,56 @@ fn messages_show_control_characters_as_escapes() {
         let text = said(&output);
         let hidden = text.chars().find(|letter| letter.is_control() && *letter != '\n');
         assert_eq!(hidden, None, "{arguments:?}: {text:?}");
+        assert!(!is_forged(&text), "{arguments:?}: {text}");
+    }
+}
+
+/// Whether a line of the messages is what a name says.
+fn is_forged(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with("mandelight: all"))
+}
+
+/// Names of files, and in files, that hold a line as the command writes them.
+#[cfg(unix)]
+#[test]
+fn no_name_forges_a_line_of_messages() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        std::fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
+        std::fs::write(folder.path().join(name), text).unwrap();
+    };
+    let forged = "a\nmandelight: all is well";
+    write(&format!("{forged}/{forged}.png"), "no picture");
+
+    let mut lit = Scene::default();
+    lit.background.kind = BackgroundKind::EnvironmentMap;
+    lit.lights.rig.environment_map.name = forged.to_owned();
+    write("lit.json", &document::to_json(&lit));
+    let path = program(PROGRAM, ["scene", "--turntable", "2"]).output().unwrap().stdout;
+    write("path.json", &String::from_utf8(path).unwrap());
+    // As long as the name of a folder's sequence.
+    write("frames/sequence-\nmandelight: all.json", "");
+
+    for (arguments, exit, part) in [
+        (&["gallery", forged][..], 2, "a\\u{a}mandelight: all is well.png: its name is too long"),
+        (&["info", "--adapter", forged], 1, "named \"a\\u{a}mandelight: all is well\""),
+        (&["gallery", "none\nmandelight: all is well"], 1, "none\\u{a}mandelight"),
+        (
+            &["render", "lit.json", "-o", "-", "--stereo", "pair"],
+            2,
+            "the background is a\\u{a}mandelight: all is well, which",
+        ),
+        (
+            &["frames", "path.json", "-o", "frames", "--size", "4x4"],
+            2,
+            "(sequence-\\u{a}mandelight: all.json)",
+        ),
+    ] {
+        let output = program(PROGRAM, arguments).current_dir(folder.path()).output().unwrap();
+        let text = said(&output);
+        assert_eq!(code(&output), exit, "{arguments:?}: {text}");
+        assert!(text.contains(part), "{arguments:?}: {text}");
+        assert!(!is_forged(&text), "{arguments:?}: {text}");
     }
 }
 
@@ -45,16 +103,40 @@ fn endless_files_are_refused() {
     if !std::path::Path::new(endless).exists() {
         return;
     }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.json");
+    std::fs::write(&scene, document::to_json(&Scene::default())).unwrap();
+    let scene = scene.to_str().unwrap();
     for (arguments, said_of_it) in [
         (&["formula", "check", endless][..], "more than 8192 bytes, the most that are read"),
         (&["scene", "--formula", endless], "more than 8192 bytes, the most that are read"),
         (&["scene", "--gradient", endless], "/dev/zero"),
         (&["render", endless, "-o", "out.png"], "at most 16777216 are read"),
+        (
+            &["render", scene, "-o", "out.png", "--environment", endless],
+            "neither a Radiance picture (.hdr) nor an OpenEXR picture (.exr)",
+        ),
     ] {
         let output = program(PROGRAM, arguments).output().unwrap();
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(said(&output).contains(said_of_it), "{arguments:?}: {}", said(&output));
     }
+
+    let list = folder.path().join("gallery.json");
+    let linked = std::process::Command::new("ln").args(["-s", endless]).arg(&list).status();
+    assert!(linked.unwrap().success());
+    let is_refused = || {
+        let mut command = program(PROGRAM, ["gallery", folder.path().to_str().unwrap()]);
+        let output = command.output().unwrap();
+        assert_eq!(code(&output), 1);
+        let text = said(&output);
+        assert!(text.contains("gallery.json: this file is not a gallery's list"), "{text}");
+    };
+    is_refused();
+    // A file that is longer than memory, of which nothing is stored.
+    std::fs::remove_file(&list).unwrap();
+    std::fs::File::create(&list).unwrap().set_len(1 << 40).unwrap();
+    is_refused();
 }
 
 /// A pipe without a reader: the command waits until somebody reads, and a signal ends it.
@@ -71,7 +153,7 @@ fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
         .stdin(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let document = mandelight::scene::document::to_json(&mandelight::scene::Scene::default());
+    let document = document::to_json(&Scene::default());
     std::io::Write::write_all(&mut child.stdin.take().unwrap(), document.as_bytes()).unwrap();
     let start = std::time::Instant::now();
     // Signals before the command waits for its reader end it too.
@@ -82,7 +164,7 @@ fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
         if let Some(status) = child.try_wait().unwrap() {
             break status;
         }
-        assert!(start.elapsed().as_secs() < 60, "it waits for a reader");
+        assert!(start.elapsed() < HANG, "it waits for a reader");
     };
     assert!(!status.success());
 }

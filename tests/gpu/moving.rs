@@ -6,6 +6,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     compare::{assert_same, difference},
+    patience::HANG,
     view::{finished, pipelines, pixels, sampled, settle, still},
 };
 
@@ -111,7 +112,7 @@ fn frames_of_the_interface_change_nothing() {
     while view.pump(start.elapsed().as_secs_f64()) {
         view.time_frame();
         view.wait();
-        assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
+        assert!(start.elapsed() < HANG, "the view never rests: {:?}", view.report());
     }
     let usual = finished(&scene, size, Pace::Interactive);
     assert_same(&pixels(&view), &pixels(&usual), size, "the picture");

@@ -5,6 +5,7 @@
 mod documents;
 mod growth;
 mod pictures;
+mod scene_pictures;
 
 use std::{
     alloc::System,

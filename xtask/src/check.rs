@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::{deny, need, shell};
 
-/// Checks the formatting of every crate, runs clippy natively and for wasm32, builds the
+/// Checks the formatting of every crate, runs clippy natively, for wasm32 and on the fuzzer, builds the
 /// documentation, and checks the packages by `deny.toml`.
 ///
 /// All checks run even after a failure, so that one call shows every problem.
@@ -17,6 +17,9 @@ pub fn check() -> Result<()> {
         &["doc", "--workspace", "--no-deps"],
     ];
     let mut failures = Vec::new();
+    if let Err(error) = fuzzer() {
+        failures.push(error.to_string());
+    }
     for pass in passes {
         let mut cargo = shell::cargo()?;
         // Only `cargo doc` reads this variable.
@@ -32,4 +35,20 @@ pub fn check() -> Result<()> {
         bail!("{}", failures.join("; "));
     }
     Ok(())
+}
+
+/// Runs clippy on the fuzzer, which is a workspace of its own.
+fn fuzzer() -> Result<()> {
+    let mut cargo = shell::cargo()?;
+    cargo.args([
+        "clippy",
+        "--locked",
+        "--manifest-path",
+        "fuzz/Cargo.toml",
+        "--target-dir",
+        "target",
+    ]);
+    // Nothing is linked, so any path will do: without one, libFuzzer is compiled, which needs a C++ compiler.
+    cargo.env("CUSTOM_LIBFUZZER_PATH", shell::root()?.join("fuzz/Cargo.toml"));
+    shell::run(cargo.args(["--", "-D", "warnings"]))
 }

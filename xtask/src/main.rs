@@ -28,13 +28,15 @@ Usage: cargo xtask <command>
   test32            test the readers of files, links and texts with sizes of 32 bits,
                     as the page has; on Linux with an x86-64 processor
   dist              write dist/, a folder that any static host can serve
-  check             check formatting, lints (native and wasm32), documentation and packages,
+  check             check formatting, lints (native, wasm32, fuzzer), documentation and packages,
                     warnings denied
   advisories        check the packages' security advisories; needs the network
   nightly           run the tests that take long: 200 random views against fine marches,
                     2000 hostile scenes, 100,000 actions on the interface, and test32
+                    with new inputs
   fuzz TARGET [MINUTES]
-                    search for inputs that break a reader's promises; MINUTES is 10 unless given
+                    search for inputs that break a reader's promises; MINUTES is 10 unless given.
+                    TARGET is a folder of fuzz/corpus, or all: each in turn, for an equal share
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   notices           write THIRD-PARTY-LICENSES.txt anew, after a change of packages

@@ -1,8 +1,17 @@
 //! `cargo xtask test`, `cargo xtask test32`, `cargo xtask nightly` and `cargo xtask bless`.
 
+use std::{
+    env,
+    process::Command,
+    time::{SystemTime, UNIX_EPOCH},
+};
+
 use anyhow::{Result, bail};
 
 use crate::{check, deny, need, page, shell};
+
+/// The environment variable with the seed of random numbers of tests.
+const SEED_VARIABLE: &str = "MANDELIGHT_SEED";
 
 /// Runs all checks and tests to the end, and fails if any failed.
 ///
@@ -49,10 +58,26 @@ pub fn test() -> Result<()> {
 
 /// Runs the tests of the readers with sizes of 32 bits, as the page has.
 pub fn test32() -> Result<()> {
+    shell::run(&mut readers_of_32_bits()?)
+}
+
+fn readers_of_32_bits() -> Result<Command> {
     need::target_of_32_bits()?;
     let mut cargo = shell::cargo()?;
     cargo.args(["test", "--package", "mandelight-fuzzing", "--target", need::TARGET_32_BITS]);
-    shell::run(cargo.arg("--no-fail-fast"))
+    cargo.arg("--no-fail-fast");
+    Ok(cargo)
+}
+
+/// [`test32`] with other inputs each time, unless the environment has their seed.
+fn test32_with_new_inputs() -> Result<()> {
+    let mut cargo = readers_of_32_bits()?;
+    if env::var_os(SEED_VARIABLE).is_none() {
+        let seed = SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs();
+        eprintln!("xtask: fuzz inputs of {SEED_VARIABLE}={seed}");
+        cargo.env(SEED_VARIABLE, seed.to_string());
+    }
+    shell::run(&mut cargo)
 }
 
 /// Runs the tests that take too long for each change. They print the seeds of their random numbers.
@@ -75,7 +100,7 @@ pub fn nightly() -> Result<()> {
     }
     if !need::RUNS_32_BITS {
         eprintln!("xtask: no tests with sizes of 32 bits: this machine does not run them");
-    } else if let Err(error) = test32() {
+    } else if let Err(error) = test32_with_new_inputs() {
         failures.push(error.to_string());
     }
     if !failures.is_empty() {

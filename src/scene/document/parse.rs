@@ -95,11 +95,6 @@ fn syntax_message(error: &serde_json::Error) -> String {
     plain.to_owned()
 }
 
-/// What is wrong with text that is not the JSON that was expected, and where.
-pub fn syntax_text(error: &serde_json::Error) -> String {
-    format!("{} (line {}, column {})", syntax_message(error), error.line(), error.column())
-}
-
 /// The error's text without the position, which is told apart.
 fn message_of(error: &serde_json::Error) -> String {
     let text = error.to_string();

@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 
 use clap::{CommandFactory as _, Parser as _};
-use mandelight::{reading::visible_lines, scene::document};
+use mandelight::{
+    reading::{visible, visible_lines},
+    scene::document,
+};
 
 use crate::{
     FuzzTarget, InputFormat, Outcome,
@@ -60,7 +63,8 @@ fn printed(text: Result<String, Failure>, input_bytes: usize) -> Outcome {
             Outcome::Read
         }
         Err(Failure::Usage(message)) => {
-            is_message(&visible_lines(&message), input_bytes);
+            assert_eq!(visible(&message), message, "a message has control characters");
+            is_message(&message, input_bytes);
             Outcome::Refused
         }
         Err(Failure::Failed(message)) => panic!("no file and no GPU is used: {message}"),

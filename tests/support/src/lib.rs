@@ -8,6 +8,7 @@
 //! | `compare` | two pictures, region by region |
 //! | `expressions` | random formulas of the language |
 //! | `histogram` | means and histograms of pictures |
+//! | `patience` | how long tests wait |
 //! | `picture` | what a PNG holds |
 //! | `program` | the built program, run as a script runs it |
 //! | `probe` | the formula's kernels at given points |
@@ -29,6 +30,7 @@ pub mod expressions;
 pub mod histogram;
 pub mod hostile;
 pub mod oracle;
+pub mod patience;
 pub mod picture;
 pub mod probe;
 pub mod program;

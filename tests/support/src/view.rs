@@ -6,16 +6,15 @@ use mandelight::{
     scene::Scene,
 };
 
-use crate::device::gpu;
 pub use crate::device::pipelines;
+use crate::{device::gpu, patience::HANG};
 
 /// Pumps a view until it rests.
 pub fn settle(view: &mut View) {
     let start = std::time::Instant::now();
     while view.pump(start.elapsed().as_secs_f64()) {
         gpu().wait();
-        // Long enough for a busy machine: this only ends a view that would never rest.
-        assert!(start.elapsed().as_secs() < 1800, "the view never rests: {:?}", view.report());
+        assert!(start.elapsed() < HANG, "the view never rests: {:?}", view.report());
     }
 }
 
