@@ -26,6 +26,10 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await save("small.png");
   await choose("Bits per channel: 16");
   await save("deep.png");
+  await choose("Bits per channel: 8");
+  await choose("Background: Transparent");
+  await save("cut_out.png");
+  await choose("Background: As shown");
   for (const [kind, extension] of Object.entries(kinds)) {
     await choose(`File: ${kind}`);
     await save(`small.${extension}`);

@@ -31,6 +31,12 @@ fn each_format_of_the_menu_is_a_picture_of_its_kind() {
     assert!(eight.contrast() > 5.0, "the picture is empty");
     assert!(eight.difference(&deep).mean < 1.0, "more bits are another picture");
 
+    // Corners of the opening view show background alone.
+    let cut_out = Picture::read_png(&visit.folder.join("cut_out.png"));
+    let alpha = |[x, y]: [usize; 2]| cut_out.rgba[4 * (64 * y + x) + 3];
+    let corners = [[0, 0], [63, 0], [0, 39], [63, 39]].map(alpha);
+    assert_eq!((corners, alpha([32, 20])), ([0; 4], 255));
+
     let mut webp = image_webp::WebPDecoder::new(Cursor::new(read("small.webp"))).unwrap();
     assert_eq!(webp.dimensions(), (64, 40));
     let mut pixels = vec![0; webp.output_buffer_size().unwrap()];

@@ -167,6 +167,9 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
 fn a_page_that_was_open_once_works_without_a_connection() {
     let visit = Visit::run("offline");
     assert!(visit.number("/offline/pictures") > 0.0);
+    assert_eq!(visit.seen["module_by_worker"], false);
+    assert_eq!(visit.seen["uninstallable"], serde_json::json!([]));
+    visit.assert_legible("/texts");
     let files = fs::read_dir(std::env::var_os("MANDELIGHT_DIST").unwrap()).unwrap().count();
     // The worker and the list of headers are no files of the page, and a folder of scripts counts as one.
     assert!(visit.number("/kept/files") as usize >= files - 2, "{}", visit.seen["kept"]);

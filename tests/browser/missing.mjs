@@ -49,6 +49,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
     // The rest of a download must not cover it.
     await new Promise((resolve) => setTimeout(resolve, 1000));
     v.seen.later[name] = await v.notice();
+    v.seen.texts = await v.texts("#notice");
     await v.screenshot(`${name}-480x320`);
     await v.context.unroute(file);
   }

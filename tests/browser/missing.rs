@@ -6,6 +6,7 @@ use crate::visit::Visit;
 fn a_page_without_one_of_its_parts_says_so_and_opens_once_it_is_there() {
     let visit = Visit::run("missing");
     assert!(visit.text("/alone").contains("did not arrive"));
+    visit.assert_legible("/texts");
     for (name, said, raw) in [
         ("unreachable", "did not arrive", "no connection"),
         ("gone", "did not arrive", "404"),

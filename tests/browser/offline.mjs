@@ -22,8 +22,17 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
     return isControlled && seen.files > 5 && seen;
   });
 
-  // Without the host and without the browser's own cache, the page opens and draws.
+  // The browser keeps the module's compiled code only if the module does not come from the worker.
+  const module = v.tab.waitForResponse(/\.wasm$/);
+  await v.tab.reload();
+  v.seen.module_by_worker = (await module).fromServiceWorker();
+  await page.firstPicture();
   const devtools = await v.context.newCDPSession(v.tab);
+  const { installabilityErrors } = await devtools.send("Page.getInstallabilityErrors");
+  // The test's own profile is a private window.
+  v.seen.uninstallable = installabilityErrors.filter(({ errorId }) => errorId !== "in-incognito");
+
+  // Without the host and without the browser's own cache, the page opens and draws.
   await devtools.send("Network.clearBrowserCache");
   v.server.isDown = true;
   await v.tab.reload();
@@ -63,6 +72,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   const offered = () => v.tab.evaluate(() => !document.getElementById("update").hidden);
   v.seen.offered = await v.until("the offer of a new version", offered);
   await v.screenshot("update-480x320");
+  v.seen.texts = await v.texts("#update");
   await v.tab.click("#update-later");
   v.seen.put_off = !(await offered()) && !(await script()).includes("-next.");
 

@@ -110,6 +110,37 @@ export class Visit {
     });
   }
 
+  /** The texts in sight of an element of the document: `{text, isButton, width, height, fontPx, contrast}` each,
+   * in CSS pixels; contrast as WCAG 2.2 defines it, to the nearest background behind the text. */
+  texts(selector) {
+    return this.tab.evaluate((selector) => {
+      const channels = (color) => color.match(/[\d.]+/g).map(Number);
+      const luminance = (color) => {
+        const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+        const [red, green, blue] = channels(color).map((value) => linear(value / 255));
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+      };
+      const backgroundOf = (element) => {
+        for (let it = element; it; it = it.parentElement) {
+          const color = getComputedStyle(it).backgroundColor;
+          if (channels(color)[3] !== 0) return color;
+        }
+        return "rgb(255, 255, 255)";
+      };
+      const own = (element) => [...element.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE);
+      const all = [...document.querySelectorAll(`${selector}, ${selector} *`)];
+      return all.flatMap((element) => {
+        const text = own(element).map((node) => node.data.trim()).join(" ").trim();
+        if (text === "" || !element.checkVisibility({ visibilityProperty: true })) return [];
+        const { color, fontSize } = getComputedStyle(element);
+        const [dark, light] = [luminance(color), luminance(backgroundOf(element))].toSorted((a, b) => a - b);
+        const { width, height } = element.getBoundingClientRect();
+        const isButton = element.tagName === "BUTTON";
+        return [{ text, isButton, width, height, fontPx: parseFloat(fontSize), contrast: (light + 0.05) / (dark + 0.05) }];
+      });
+    }, selector);
+  }
+
   /** Polls `look` until its result is truthy, and returns that result. (playwright's own waiting
    * evaluates text, which the page's content security policy forbids.) */
   async until(what, look, limitSecs = 240) {

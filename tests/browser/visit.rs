@@ -79,6 +79,23 @@ impl Visit {
         found.unwrap_or_else(|| panic!("the visit observed no {pointer}"))
     }
 
+    /// Checks the observed texts of the page's own document at a JSON pointer: large enough, in contrast to what is
+    /// behind them, and buttons of a finger's size.
+    pub fn assert_legible(&self, pointer: &str) {
+        let texts = self.seen.pointer(pointer).and_then(Value::as_array);
+        let texts = texts.unwrap_or_else(|| panic!("the visit observed no {pointer}"));
+        assert!(texts.len() > 1, "{texts:?}");
+        assert!(texts.iter().any(|text| text["isButton"] == true), "{texts:?}");
+        for text in texts {
+            let number = |name: &str| text[name].as_f64().unwrap_or_default();
+            assert!(number("fontPx") >= 12.0, "{text}");
+            assert!(number("contrast") >= 4.5, "{text}");
+            if text["isButton"] == true {
+                assert!(number("width") >= 44.0 && number("height") >= 44.0, "{text}");
+            }
+        }
+    }
+
     /// The observed scene of this name.
     pub fn scene(&self, name: &str) -> Scene {
         let json = self.text(&format!("/scenes/{name}"));
