@@ -82,6 +82,36 @@ fn tab_visits_the_places_of_the_panel_in_reading_order() {
     }
 }
 
+/// The Tab key reaches whatever a screen reader could focus: panel, header, timeline, the view and its buttons.
+#[test]
+fn tab_reaches_every_control() {
+    let timeline = Settings { timeline_open: true, ..Settings::default() };
+    let flags = [(Settings::default(), 900.0), (unfolded(), 6000.0), (timeline, 900.0)];
+    for (settings, height) in flags {
+        let mut harness = without_motion(stage(Scene::default(), settings, [1280.0, height]));
+        let visited = visited(&mut harness, 500);
+        let wanted: Vec<(String, Rect)> = harness
+            .root()
+            .children_recursive()
+            .filter(|node| {
+                let node = node.accesskit_node();
+                let is_used = egui::accessibility::is_input(node.role())
+                    || node.data().supports_action(Action::Focus);
+                is_used && !node.is_disabled()
+            })
+            .map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect()))
+            .collect();
+        assert!(wanted.len() > 20, "{}", wanted.len());
+        // Names alone: what has the keyboard may scroll the panel.
+        let missed: Vec<&str> = wanted
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .filter(|name| !visited.iter().any(|(visited, _)| visited == name))
+            .collect();
+        assert!(missed.is_empty(), "of {}: {missed:#?}", wanted.len());
+    }
+}
+
 #[test]
 fn the_measure_knows_reading_order() {
     let rect =

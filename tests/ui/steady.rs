@@ -2,9 +2,10 @@
 
 use egui::{Rect, vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
+use glam::DVec2;
 use mandelight::{
     formula::table::Value,
-    fractal::FractalModel,
+    fractal::{FractalModel, camera_ray, pixel_cone},
     scene::{Scene, presets},
     ui::Settings,
 };
@@ -79,12 +80,27 @@ fn apparent_size(harness: &Harness<'_, Stage>) -> f64 {
     radius / scene.camera.position.to_dvec3().length()
 }
 
+/// Whether the surface touches the picture's border: rays are marched along it.
+fn is_cut_off(harness: &Harness<'_, Stage>) -> bool {
+    let camera = &scene(harness).camera;
+    let model = FractalModel::new(&scene(harness).fractal);
+    let field = model.whole();
+    let aspect = f64::from(rect(harness, "view").aspect_ratio());
+    let cone = pixel_cone(camera, aspect, f64::from(rect(harness, "view").height()));
+    let along = (0..=40).map(|index| f64::from(index) / 20.0 - 1.0);
+    let mut border = along
+        .flat_map(|at| [(at, -1.0), (at, 1.0), (-1.0, at), (1.0, at)])
+        .map(|(x, y)| camera_ray(camera, &field.origin(), DVec2::new(x, y), aspect));
+    border.any(|ray| field.trace(ray, cone, f64::INFINITY, 1000).unwrap_or_else(Some).is_some())
+}
+
 #[test]
 fn the_power_is_set_finely_and_the_set_stays_framed() {
     for start in [Scene::default(), presets::opening()] {
         let mut harness = stage(start.clone(), Settings::default(), [1280.0, 720.0]);
         harness.run();
         let size = apparent_size(&harness);
+        assert!(!is_cut_off(&harness));
         // From 8 toward the lowest power, in steps of 30 points.
         let rail = slider(&harness, "Power").rect();
         let mut at = rail.left() + rail.width() * 6.0 / 14.0;
@@ -97,6 +113,7 @@ fn the_power_is_set_finely_and_the_set_stays_framed() {
             let now = apparent_size(&harness);
             let power = power(scene(&harness));
             assert!((now / size - 1.0).abs() < 1e-3, "{now} for {size} at power {power}");
+            assert!(!is_cut_off(&harness), "at power {power}");
             at -= 30.0;
         }
         assert!(power(scene(&harness)) < 4.0);
