@@ -158,7 +158,7 @@ impl Folder {
                 return Err(other_sequence(path, other));
             }
         }
-        // Where all frames exist, no file is written, which would do this.
+        // If all frames exist, no file is created, so that nothing else removes stale ones.
         remove_stale_once(path);
         Ok(Self { path: path.to_owned(), extension: sequence.format.extension() })
     }

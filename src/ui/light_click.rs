@@ -2,7 +2,7 @@
 //!
 //! In: a click in the view. Out: the selected light, where nothing is between it and the place.
 
-use egui::{Pos2, Response, Ui};
+use egui::{Key, Pos2, Response, Ui};
 
 use super::{pilot::LitPlace, selection::LightRef};
 use crate::scene::{Camera, EnvironmentLight, Lights, Scene, follow, param};
@@ -10,7 +10,7 @@ use crate::scene::{Camera, EnvironmentLight, Lights, Scene, follow, param};
 /// What the picture says while it waits for the click.
 pub const HINT: &str = "Click a place to light it · Esc to stop";
 
-/// What it says to someone who has come to it by keyboard.
+/// Caption while the focused view waits.
 pub const KEYBOARD_HINT: &str = "Enter lights the middle · Esc to stop";
 
 /// Distances of a point light from the place, in view units.
@@ -33,14 +33,21 @@ impl LightClick {
         self.waits = !self.waits;
     }
 
-    /// Where in the window a click of this frame asks for light: a keyboard's click in the view's middle.
-    pub fn asked(&mut self, ui: &Ui, view: &Response) -> Option<Pos2> {
-        let is_asked = self.waits || ui.input(|i| i.modifiers.alt && i.modifiers.shift);
-        if !(view.clicked() && is_asked) {
+    /// Where in the window a click of this frame asks for light: while the view waits, Enter asks in `middle`.
+    pub fn asked(&mut self, ui: &Ui, view: &Response, middle: Pos2) -> Option<Pos2> {
+        let (has_modifiers, is_space) =
+            ui.input(|i| (i.modifiers.alt && i.modifiers.shift, i.key_pressed(Key::Space)));
+        let at = match view.interact_pointer_pos() {
+            Some(at) if self.waits || has_modifiers => at,
+            // Space plays the path.
+            None if self.waits && !is_space => middle,
+            _ => return None,
+        };
+        if !view.clicked() {
             return None;
         }
         self.waits = false;
-        Some(view.interact_pointer_pos().unwrap_or(view.rect.center()))
+        Some(at)
     }
 }
 

@@ -182,9 +182,6 @@ impl Engine {
             busy
         };
         self.show_gpu_errors(session);
-        if let Some(times) = &mut session.piece_times {
-            self.view.record_piece_times(times);
-        }
         session.status = AppStatus {
             report: self.view.report(),
             texture: self.view.texture().cloned(),

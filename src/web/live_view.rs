@@ -104,15 +104,6 @@ impl LiveView {
         is_at_rest && report.samples_done > 0 && !view.has_pending_scene()
     }
 
-    /// Adds the GPU times of the pieces of work that have finished since the last call to `times`; they are recorded from
-    /// the first call on.
-    pub fn record_piece_times(&mut self, times: &mut Vec<PieceTime>) {
-        if let Some(view) = &mut self.view {
-            times.extend(view.take_piece_times());
-            view.watch_piece_times(true);
-        }
-    }
-
     /// Compute dispatches so far.
     pub fn dispatches(&self) -> u64 {
         self.view.as_ref().map_or(0, |view| view.dispatches().total())

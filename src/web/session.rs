@@ -19,7 +19,7 @@ use super::{
 use crate::{
     gpu::Gpu,
     reading::visible_lines,
-    render::{Report, view::PieceTime},
+    render::Report,
     scene::{BackgroundKind, Project, Scene, link, presets},
     ui::{
         GalleryState, Interface, Notice, Settings,
@@ -53,8 +53,6 @@ pub struct Session {
     pub gallery: Option<GalleryState>,
     /// The notice to the visitor, until it is dismissed or expires on the page's clock.
     pub toast: Toast,
-    /// The GPU times of pieces of work, while a test watches them.
-    pub piece_times: Option<Vec<PieceTime>>,
     /// The app's status after the last step.
     pub status: AppStatus,
     /// The kept formulas as they were last read or stored.
@@ -146,7 +144,6 @@ impl Session {
             mailbox,
             gpu: None,
             toast: Toast::default(),
-            piece_times: None,
             status: AppStatus::default(),
             known_formulas,
             has_shown_storage_notice: false,

@@ -10,12 +10,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::future_to_promise;
 
 use super::{decoder::Fault, error_log, page, session::Session, view_picture::read_pixels};
-use crate::{
-    gpu::Gpu,
-    render::{Activity, schedule::Work, view::PieceTime},
-    scene::document,
-    ui::zoom,
-};
+use crate::{gpu::Gpu, render::Activity, scene::document, ui::zoom};
 
 /// The page's test hook.
 #[wasm_bindgen]
@@ -69,18 +64,6 @@ impl TestHook {
         set(&object, "reading", session.decoder.is_busy());
         set(&object, "memoryBytes", memory_bytes());
         object
-    }
-
-    /// The GPU times of the view's pieces of work since the last call, which begins to record them: an array of
-    /// `[milliseconds, whether it is a display]`.
-    #[wasm_bindgen(js_name = takePieceTimes)]
-    pub fn take_piece_times(&self) -> Array {
-        let times = self.session.borrow_mut().piece_times.replace(Vec::new()).unwrap_or_default();
-        let entry = |time: &PieceTime| {
-            let is_display = matches!(time.work, Work::Display(_));
-            Array::of2(&time.busy_ms.into(), &is_display.into())
-        };
-        times.iter().map(entry).collect()
     }
 
     /// The scene in view and its path, as a document.

@@ -27,7 +27,7 @@ const FAULTS = {
 
 await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
   const page = new Mandelight(v);
-  [v.seen.notices, v.seen.later] = [{}, {}];
+  [v.seen.notices, v.seen.later, v.seen.texts] = [{}, {}, {}];
   // Each of these is an error of the browser's console.
   v.provoked = /./;
   const open = async () => {
@@ -49,7 +49,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
     // The rest of a download must not cover it.
     await new Promise((resolve) => setTimeout(resolve, 1000));
     v.seen.later[name] = await v.notice();
-    v.seen.texts = await v.texts("#notice");
+    v.seen.texts[name] = await v.texts("#notice");
     await v.screenshot(`${name}-480x320`);
     await v.context.unroute(file);
   }

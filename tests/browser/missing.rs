@@ -6,7 +6,6 @@ use crate::visit::Visit;
 fn a_page_without_one_of_its_parts_says_so_and_opens_once_it_is_there() {
     let visit = Visit::run("missing");
     assert!(visit.text("/alone").contains("did not arrive"));
-    visit.assert_legible("/texts");
     for (name, said, raw) in [
         ("unreachable", "did not arrive", "no connection"),
         ("gone", "did not arrive", "404"),
@@ -14,6 +13,7 @@ fn a_page_without_one_of_its_parts_says_so_and_opens_once_it_is_there() {
         ("document_for_script", "did not arrive", "mandelight-"),
         ("damaged", "arrived damaged", "WebAssembly"),
     ] {
+        visit.assert_legible(&format!("/texts/{name}"));
         let notice = &visit.seen["notices"][name];
         assert_eq!(notice["again"], "Try again", "{name}");
         let detail = notice["detail"].as_str().unwrap();

@@ -68,8 +68,9 @@ fn no_name_forges_a_line_of_messages() {
     lit.background.kind = BackgroundKind::EnvironmentMap;
     lit.lights.rig.environment_map.name = forged.to_owned();
     write("lit.json", &document::to_json(&lit));
-    let path = program(PROGRAM, ["scene", "--turntable", "2"]).output().unwrap().stdout;
-    write("path.json", &String::from_utf8(path).unwrap());
+    let document_with_path =
+        program(PROGRAM, ["scene", "--turntable", "2"]).output().unwrap().stdout;
+    write("path.json", &String::from_utf8(document_with_path).unwrap());
     // As long as the name of a folder's sequence.
     write("frames/sequence-\nmandelight: all.json", "");
 

@@ -17,7 +17,7 @@ use mandelight::{
 use mandelight_test_support::{
     deep::{
         brackets::Verdict,
-        random_views::random_view,
+        random_views::{RandomView, random_view, random_view_of},
         rays::{SetView, Size, centre, pixels},
         views,
     },
@@ -112,15 +112,20 @@ const MOST_WRONG: f64 = 0.005;
 /// Part of all pictures' pixels.
 const MOST_WRONG_OF_ALL: f64 = 0.001;
 
-/// Judges random views until `wanted` of them show something. Views that break a limit are stored, to look at.
-fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
+/// Judges random views until `wanted` of them show something; `draw` gets the number of those before. Views that break a
+/// limit are stored, to look at.
+fn judge_views(
+    seed: u64,
+    wanted: usize,
+    draw: impl Fn(&mut Random, usize) -> Option<RandomView>,
+) -> Vec<String> {
     println!("MANDELIGHT_SEED={seed}");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("random-views");
     fs::create_dir_all(&folder).expect("a folder");
     let mut random = Random(seed);
     let (mut found, mut all, mut broken) = (0, Judged::default(), Vec::new());
     while found < wanted {
-        let Some(view) = random_view(&mut random, NEAREST) else { continue };
+        let Some(view) = draw(&mut random, found) else { continue };
         let judged = judge(&view.scene, SIZE);
         // A picture that misses what it should show counts.
         if judged.surfaces * 10 < judged.pixels * 3 {
@@ -193,7 +198,18 @@ const SEED: u64 = 11;
 
 #[test]
 fn twenty_views_are_true() {
-    let broken = judge_views(SEED, 20);
+    let broken = judge_views(SEED, 20, |random, _| random_view(random, NEAREST));
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+/// Whole powers that random views do not have.
+const OTHER_POWERS: [f64; 6] = [7.0, 10.0, 11.0, 13.0, 14.0, 15.0];
+
+#[test]
+fn a_view_of_each_other_whole_power_is_true() {
+    let broken = judge_views(SEED, OTHER_POWERS.len(), |random, found| {
+        random_view_of(OTHER_POWERS[found], random, NEAREST)
+    });
     assert!(broken.is_empty(), "{broken:#?}");
 }
 
@@ -209,6 +225,7 @@ fn random_views_are_true() {
         println!("{}: {judged:?}", file.display());
         return;
     }
-    let broken = judge_views(seed | 1, number("MANDELIGHT_VIEWS").unwrap_or(200) as usize);
+    let wanted = number("MANDELIGHT_VIEWS").unwrap_or(200) as usize;
+    let broken = judge_views(seed | 1, wanted, |random, _| random_view(random, NEAREST));
     assert!(broken.is_empty(), "{broken:#?}");
 }

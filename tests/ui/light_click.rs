@@ -4,7 +4,7 @@ use egui::{Key, Modifiers, PointerButton, Pos2, accesskit::Role, pos2};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use glam::DVec3;
 use mandelight::{
-    scene::{PointLight, PrecisePoint, Scene},
+    scene::{PointLight, PrecisePoint, Scene, StereoLayout},
     ui::Settings,
 };
 
@@ -71,6 +71,35 @@ fn enter_in_the_view_lights_its_middle() {
     let light = |harness: &Harness<'_, Stage>| scene(harness).lights.environment[0].clone();
     assert_ne!(light(&harness), Scene::default().lights.environment[0]);
     assert_eq!(light(&harness), light(&pointed));
+}
+
+/// The middle of one eye's picture, and Space is the path's.
+#[test]
+fn enter_lights_the_middle_of_an_eye_and_space_nothing() {
+    let mut scene_of_pair = Scene::default();
+    scene_of_pair.camera.stereo.layout = StereoLayout::SideBySide;
+    let mut harness = lit(scene_of_pair);
+    press_light_a_place(&mut harness);
+    harness.get_by_role_and_label(Role::Canvas, "View").focus();
+    harness.run();
+    let before = scene(&harness).clone();
+    harness.key_press(Key::Space);
+    harness.run();
+    assert_eq!(*scene(&harness), before);
+    harness.key_press(Key::Enter);
+    harness.run();
+    let of_pair = scene(&harness).lights.environment[0].direction;
+    let mut mono = before.clone();
+    mono.camera.stereo.layout = Scene::default().camera.stereo.layout;
+    let mut harness = lit(mono);
+    press_light_a_place(&mut harness);
+    harness.get_by_role_and_label(Role::Canvas, "View").focus();
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    let of_one = scene(&harness).lights.environment[0].direction;
+    let apart = (DVec3::from_array(of_pair) - DVec3::from_array(of_one)).length();
+    assert!(apart < 0.3, "{of_pair:?}, {of_one:?}");
 }
 
 #[test]

@@ -155,9 +155,9 @@ fn a_view_that_the_path_replaces_is_put_aside() {
     }
 }
 
-/// What is done on the path meanwhile does not drop the view, nor the view made there.
+/// Work on the path drops neither the view put aside nor a view made there.
 #[test]
-fn a_view_put_aside_stays_until_it_is_stored_or_had_back() {
+fn a_view_put_aside_stays_until_it_is_stored_or_shown_again() {
     let mut harness = stage(project(), open(), [1280.0, 720.0]);
     let own = scene(&harness).clone();
     harness.key_press(Key::Period);

@@ -10,8 +10,9 @@ use crate::{deny, need, shell};
 /// All checks run even after a failure, so that one call shows every problem.
 pub fn check() -> Result<()> {
     need::wasm_target()?;
-    let passes: [&[&str]; 4] = [
+    let passes: [&[&str]; 5] = [
         &["fmt", "--all", "--check"],
+        &["fmt", "--manifest-path", "fuzz/Cargo.toml", "--check"],
         &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
         &["clippy", "--lib", "--target", need::WASM_TARGET, "--", "-D", "warnings"],
         &["doc", "--workspace", "--no-deps"],

@@ -25,15 +25,20 @@ pub fn fuzz(target: &str, minutes: u64) -> Result<()> {
             );
         }
         need::fuzzer()?;
-        return run(&folder, target, 60 * minutes);
+        return run(&folder, target, minutes.saturating_mul(60));
     }
     need::fuzzer()?;
     let targets = targets(&folder)?;
     let secs = share_secs(minutes, targets.len());
-    let failed: Vec<_> =
-        targets.into_iter().filter(|target| run(&folder, target, secs).is_err()).collect();
+    let failed: Vec<_> = targets
+        .into_iter()
+        .filter_map(|target| {
+            let error = run(&folder, &target, secs).err()?;
+            Some(format!("{target}: {error:#}"))
+        })
+        .collect();
     if !failed.is_empty() {
-        bail!("an input fails, or the fuzzer: {}", failed.join(", "));
+        bail!("{}", failed.join("; "));
     }
     Ok(())
 }
@@ -51,7 +56,7 @@ fn targets(folder: &Path) -> Result<Vec<String>> {
 
 /// A target's share of the time, in seconds. The fuzzer takes 0 for no end.
 fn share_secs(minutes: u64, targets: usize) -> u64 {
-    (60 * minutes / targets.max(1) as u64).max(1)
+    (minutes.saturating_mul(60) / targets.max(1) as u64).max(1)
 }
 
 /// Fuzzes a target for so many seconds.

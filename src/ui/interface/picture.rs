@@ -54,7 +54,7 @@ impl Interface {
         self.pilot.draw_to_places(self.settings.drawn_to_places);
         let before = scene.camera.clone();
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
-        if let Some(at) = self.light_click.asked(ui, &response)
+        if let Some(at) = self.light_click.asked(ui, &response, frame.rect.center())
             && let Some(place) = self.pilot.lit_place(scene, frame, at)
         {
             self.selection.light = Some(light_click::light(scene, self.selection.light, &place));

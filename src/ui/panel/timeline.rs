@@ -167,7 +167,7 @@ impl Strip<'_, '_> {
         ui.add_space(6.0);
     }
 
-    /// The button that changes between the path and a view of the user's own.
+    /// Buttons that show the path, or a view of the user's own.
     fn own_view(&mut self, ui: &mut Ui) {
         let button = |ui: &mut Ui, name, hover| {
             let height = ui.spacing().interact_size.y;

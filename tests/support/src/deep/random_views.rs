@@ -15,7 +15,7 @@ use super::{
 };
 use crate::random::Random;
 
-/// Whole powers of the sets.
+/// Whole powers of the sets, of which a quarter have any power instead.
 const POWERS: [f64; 9] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 9.0, 12.0, 16.0];
 /// Part of the sets whose power is any number.
 const REAL_PART: f64 = 0.25;
@@ -50,7 +50,13 @@ pub struct RandomView {
 ///
 /// None where the descent's rays meet no surface.
 pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
-    let fractal = random_set(random);
+    let power = random_power(random);
+    random_view_of(power, random, nearest)
+}
+
+/// A random view of a set of this power, as [`random_view`] draws them.
+pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<RandomView> {
+    let fractal = random_set(power, random);
     let nearest = if fractal.power.fract() == 0.0 { nearest } else { nearest.max(NEAREST_REAL) };
     let scale = nearest.powf(random.unit()) * WIDEST_VIEW;
     let toward = random.in_ball(1.0).normalize();
@@ -79,12 +85,15 @@ pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
     }
 }
 
-fn random_set(random: &mut Random) -> Mandelbulb {
-    let power = if random.unit() < REAL_PART {
+fn random_power(random: &mut Random) -> f64 {
+    if random.unit() < REAL_PART {
         REAL[0] + (REAL[1] - REAL[0]) * random.unit()
     } else {
         POWERS[(random.unit() * POWERS.len() as f64) as usize]
-    };
+    }
+}
+
+fn random_set(power: f64, random: &mut Random) -> Mandelbulb {
     let sine = if random.unit() < 0.3 { Sine::Negative } else { Sine::Positive };
     let julia = random.unit() < JULIA_PART;
     let mut fractal = Mandelbulb { power, sine, julia, ..Mandelbulb::default() };
