@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     fractal::SharedModel,
-    render::{Activity, Pace, Pipelines, Region, Report, View, view::PieceTime},
+    render::{Activity, Pace, Pipelines, Region, Report, View},
     scene::{EnvironmentMap, Scene},
     ui,
 };
