@@ -46,7 +46,7 @@ await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) =>
   print("all", all);
 });
 
-/** The submits that trace samples, those that display them, and the interface's. */
+/** Prints the times of pieces, of displays and of frames of the interface. */
 function print(name, submits) {
   const of = (kind) => submits.filter((submit) => submit.kind === kind);
   const longest = (some) => some.reduce((most, submit) => (submit.ms > most.ms ? submit : most), { ms: 0, scene: "" });

@@ -18,16 +18,13 @@ const ALL: &str = "all";
 /// fails, the others follow.
 pub fn fuzz(target: &str, minutes: u64) -> Result<()> {
     let folder = shell::root()?.join("fuzz");
-    if target != ALL {
-        if !folder.join("corpus").join(target).is_dir() {
-            bail!(
-                "there is no target `{target}`: {ALL}, or one as the folders of fuzz/corpus are named"
-            );
-        }
-        need::fuzzer()?;
-        return run(&folder, target, minutes.saturating_mul(60));
+    if target != ALL && !folder.join("corpus").join(target).is_dir() {
+        bail!("there is no target `{target}`; choose one of the folders of fuzz/corpus, or {ALL}");
     }
     need::fuzzer()?;
+    if target != ALL {
+        return run(&folder, target, minutes.saturating_mul(60));
+    }
     let targets = targets(&folder)?;
     let secs = share_secs(minutes, targets.len());
     let failed: Vec<_> = targets
