@@ -43,6 +43,11 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
             message(&format!("left out: {file}: its name is too long, or has one of \\ : ? # %"));
             continue;
         }
+        // Opening a pipe would wait for a writer.
+        if !fs::metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
+            message(&format!("left out: {}: not a file", visible(file)));
+            continue;
+        }
         match input::read_project(&path) {
             Ok(_) => names.push(file.to_owned()),
             Err(Failure::Usage(reason) | Failure::Failed(reason)) => {

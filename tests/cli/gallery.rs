@@ -36,6 +36,25 @@ fn the_pictures_of_a_folder_that_contain_their_scene_are_listed() {
     }
 }
 
+/// Opening a pipe would wait for a writer.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("folder.png")).unwrap();
+    let pipe = folder.path().join("pipe.png");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let output = program(PROGRAM, ["gallery", folder.path().to_str().unwrap()]).output().unwrap();
+    for name in ["folder.png", "pipe.png"] {
+        assert!(
+            said(&output).contains(&format!("left out: {name}: not a file")),
+            "{}",
+            said(&output)
+        );
+    }
+    assert!(said(&output).contains("0 pictures"), "{}", said(&output));
+}
+
 #[test]
 fn a_file_that_is_no_list_stays_and_an_empty_folder_is_told() {
     let folder = tempfile::tempdir().unwrap();
