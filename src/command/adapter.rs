@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use mandelight::{gpu::Gpu, reading::visible};
+use mandelight::{export::RunDevice, gpu::Gpu, reading::visible, render::Pipelines};
 
-use super::Failure;
+use super::{Failure, message};
 
 /// The arguments that choose a GPU.
 #[derive(clap::Args)]
@@ -16,9 +16,10 @@ pub struct AdapterArguments {
 
 impl AdapterArguments {
     /// Opens the GPU named by the argument, else by `WGPU_ADAPTER_NAME`, else the default GPU.
-    pub fn open(self) -> Result<Gpu, Failure> {
+    pub fn open(&self) -> Result<Gpu, Failure> {
         let wanted = self
             .adapter
+            .clone()
             .or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok())
             .filter(|name| !name.is_empty());
         // The error quotes the name. No GPU's name has control characters.
@@ -27,12 +28,51 @@ impl AdapterArguments {
     }
 }
 
+/// The GPU that renders stills; another device replaces it if it is lost.
+pub struct StillDevice {
+    adapter: AdapterArguments,
+    /// The pipelines on the device in use.
+    pub pipelines: Arc<Pipelines>,
+    health: Health,
+}
+
+impl StillDevice {
+    /// Opens the GPU that `adapter` names.
+    pub fn open(adapter: AdapterArguments) -> Result<Self, Failure> {
+        let gpu = adapter.open()?;
+        let health = Health::of(&gpu);
+        Ok(Self { adapter, pipelines: Pipelines::for_stills(&gpu), health })
+    }
+
+    /// The driver's message about the device's loss, if the device is lost.
+    pub fn loss(&self) -> Option<String> {
+        self.health.loss()
+    }
+}
+
+impl RunDevice for StillDevice {
+    fn is_lost(&self) -> bool {
+        self.loss().is_some()
+    }
+
+    fn replace(&mut self) -> Option<Arc<Pipelines>> {
+        let reason = self.loss()?;
+        let gpu = self.adapter.open().ok()?;
+        self.health = Health::of(&gpu);
+        self.pipelines = Pipelines::for_stills(&gpu);
+        message(&format!(
+            "the GPU was lost: {reason}; it was started again, and rendering goes on"
+        ));
+        Some(self.pipelines.clone())
+    }
+}
+
 /// Detects the loss of the GPU's device.
-pub struct Health(Arc<Mutex<Option<String>>>);
+struct Health(Arc<Mutex<Option<String>>>);
 
 impl Health {
     /// Starts to observe the device of `gpu`.
-    pub fn of(gpu: &Gpu) -> Self {
+    fn of(gpu: &Gpu) -> Self {
         let loss = Arc::<Mutex<Option<String>>>::default();
         let written = loss.clone();
         gpu.device.set_device_lost_callback(move |reason, message| {
@@ -44,7 +84,7 @@ impl Health {
     }
 
     /// The driver's message about the device's loss, if the device is lost.
-    pub fn loss(&self) -> Option<String> {
+    fn loss(&self) -> Option<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

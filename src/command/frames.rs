@@ -19,13 +19,12 @@ use mandelight::{
         ExportError, Eye, PictureFormat, StillJob, StillOptions, StillStatus,
         sequence::remaining_secs,
     },
-    render::Pipelines,
     scene::{BackgroundKind, Path, Scene},
 };
 
 use super::{
     Failure,
-    adapter::{AdapterArguments, Health},
+    adapter::{AdapterArguments, StillDevice},
     encoding::{EncodingArguments, FrameFormat},
     environment::{EnvironmentArguments, warn_of_missing_map},
     folder::{Folder, FrameFile, SequenceSettings},
@@ -174,14 +173,12 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         report(format!("{} not complete, rendered again", counted(damaged, eyes)));
     }
 
-    let gpu = arguments.adapter.open()?;
-    let work = Work {
+    let mut work = Work {
         path: &path,
         destination: &destination,
         options: StillOptions { environment_map, ..options },
         eyes,
-        pipelines: Pipelines::for_stills(&gpu),
-        health: Health::of(&gpu),
+        device: StillDevice::open(arguments.adapter)?,
         interrupted,
         progress: progress_bar(quiet),
     };
@@ -193,7 +190,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
     let secs = clock.elapsed().as_secs_f64();
     let rendered = counted(rendered, eyes);
-    report(format!("{rendered}{kept}, {secs:.1} s on {}", gpu.name()));
+    report(format!("{rendered}{kept}, {secs:.1} s on {}", work.device.pipelines.gpu.name()));
     Ok(())
 }
 
@@ -271,8 +268,7 @@ struct Work<'a> {
     destination: &'a Destination,
     options: StillOptions,
     eyes: &'static [Option<Eye>],
-    pipelines: Arc<Pipelines>,
-    health: Health,
+    device: StillDevice,
     interrupted: Arc<AtomicBool>,
     progress: ProgressBar,
 }
@@ -281,7 +277,7 @@ impl Work<'_> {
     /// Renders the `missing` files and returns their number.
     ///
     /// Skips a file that another process has rendered meanwhile.
-    fn render_all(&self, missing: &[FrameFile]) -> Result<usize, Failure> {
+    fn render_all(&mut self, missing: &[FrameFile]) -> Result<usize, Failure> {
         let (clock, all) = (Instant::now(), missing.len() as u32);
         let mut rendered = 0;
         for (index, &frame) in missing.iter().enumerate() {
@@ -289,15 +285,16 @@ impl Work<'_> {
                 continue;
             }
             let file = self.destination.file(frame);
+            let progress = self.progress.clone();
             let result = self.render(frame, &file, |done| {
                 let done = index as f64 + done;
                 let remaining = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
-                show(&self.progress, done / f64::from(all), remaining);
+                show(&progress, done / f64::from(all), remaining);
             });
             match result {
                 Ok(()) => rendered += 1,
                 Err(ExportError::Cancelled) => {
-                    let reason = match self.health.loss() {
+                    let reason = match self.device.loss() {
                         Some(reason) => format!("the GPU was lost: {reason}"),
                         None => "interrupted".to_owned(),
                     };
@@ -315,26 +312,27 @@ impl Work<'_> {
 
     /// Renders one file; the file appears only when it is complete.
     fn render(
-        &self,
+        &mut self,
         (frame, eye): FrameFile,
         file: &FilePath,
         on_progress: impl Fn(f64),
     ) -> Result<(), ExportError> {
         let output = Output::create(file, &self.interrupted)?;
         let options = StillOptions { eye, ..self.options.clone() };
-        let job = StillJob::of_frame(&self.pipelines, self.path, frame, options, output)?;
-        let result = job.run(|status| {
+        let job = StillJob::of_frame(&self.device.pipelines, self.path, frame, options, output)?;
+        let interrupted = &self.interrupted;
+        let result = job.run_on(&mut self.device, |status| {
             if let StillStatus::Working { done, .. } = status {
                 on_progress(done);
             }
-            if self.health.loss().is_some() || self.interrupted.load(Ordering::Relaxed) {
+            if interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         });
         // A lost device causes many different errors; the driver's reason explains all of them.
-        let output = result.map_err(|error| match self.health.loss() {
+        let output = result.map_err(|error| match self.device.loss() {
             Some(_) => ExportError::Cancelled,
             None => error,
         })?;

@@ -18,13 +18,13 @@ use mandelight::{
         self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus,
         sequence::remaining_secs,
     },
-    render::{Pipelines, report::clamped_text},
+    render::report::clamped_text,
     scene::param,
 };
 
 use super::{
     Failure,
-    adapter::{AdapterArguments, Health},
+    adapter::{AdapterArguments, StillDevice},
     encoding::EncodingArguments,
     environment::{EnvironmentArguments, warn_of_missing_map},
     fractals::OtherFractal,
@@ -117,17 +117,15 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     let outputs =
         files.iter().map(|file| file.create(&interrupted)).collect::<Result<Vec<_>, _>>()?;
 
-    let gpu = arguments.adapter.open()?;
-    let pipelines = Pipelines::for_stills(&gpu);
-    let health = Health::of(&gpu);
+    let mut device = StillDevice::open(arguments.adapter)?;
     let progress = progress_bar(arguments.quiet);
     let count = files.len() as u32;
     let mut complete = Vec::new();
     let mut clamped = None;
     for ((index, file), output) in (0..).zip(&files).zip(outputs) {
-        let job = StillJob::new(&pipelines, &scene, file.options.clone(), output)
+        let job = StillJob::new(&device.pipelines, &scene, file.options.clone(), output)
             .map_err(|error| file.failed(error))?;
-        let result = job.run(|status| {
+        let result = job.run_on(&mut device, |status| {
             if let StillStatus::Working { done, remaining_secs: of_file } = status {
                 let all_done = f64::from(index) + done;
                 let of_all = remaining_secs(progress.elapsed().as_secs_f64(), all_done, count);
@@ -137,7 +135,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
             if let StillStatus::Done { clamped_fraction } = status {
                 clamped = clamped_fraction;
             }
-            if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
+            if interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -145,7 +143,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
         });
         // A lost device causes many different errors; the driver's reason explains all of them.
         let name = names(&files);
-        if let Some(reason) = health.loss() {
+        if let Some(reason) = device.loss() {
             progress.finish_and_clear();
             let text = format!("the GPU was lost: {reason}; {name} was not written");
             return Err(Failure::failed(text));
@@ -169,7 +167,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
         let (name, secs) = (names(&files), elapsed.as_secs_f64());
         message(&format!(
             "{name}: {width}x{height}, {samples} samples, {secs:.1} s on {}",
-            gpu.name()
+            device.pipelines.gpu.name()
         ));
         if let Some(fraction) = clamped {
             message(&format!(

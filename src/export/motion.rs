@@ -105,6 +105,11 @@ impl SubFrameView {
         this
     }
 
+    /// A view that has the samples of a picture without motion blur.
+    pub fn of_samples(view: View, sub_frames: SubFrames) -> Self {
+        Self { view, sub_frames, index: 0, clamped_light: None, is_finished: false }
+    }
+
     /// Draws without waiting; true while there is more to do.
     pub fn pump(&mut self, now_secs: f64) -> bool {
         if self.is_finished {

@@ -4,9 +4,7 @@
 //! band are being encoded. So a job's memory is one tile's view, one tile's pixels in flight and
 //! two bands of rows, for pictures of any height.
 
-use std::{io::Write, ops::ControlFlow, sync::Arc};
-
-use web_time::Instant;
+use std::{io::Write, sync::Arc};
 
 use super::{
     ExportError, StillOptions,
@@ -17,7 +15,7 @@ use super::{
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Pipelines, Region, pass::denoise, report::ClampedLight},
+    render::{MAX_REGION_PX, Pipelines, Region, View, pass::denoise, report::ClampedLight},
     scene::{Path, Scene},
 };
 
@@ -26,6 +24,12 @@ const MAX_BAND_BYTES: usize = 32 << 20;
 
 /// Maximum width of a tile whose display has two texels a pixel.
 const MAX_DEEP_TILE_PX: u32 = 2048;
+
+/// Most bytes of a picture, as its file's encoder takes them, that takes the samples of a view: it is one tile.
+const MAX_WHOLE_BYTES: u64 = 160 << 20;
+
+/// Most pixels of such a picture: a second view of as many is made.
+const MAX_WHOLE_PX: u64 = 1 << 22;
 
 /// Maximum number of row bytes that one step encodes: a few hundredths of a second of work,
 /// because a page must stay fluid.
@@ -117,7 +121,14 @@ impl Subject {
 
     /// The view that draws tiles, beginning with `region`.
     fn view(&self, pipelines: &Arc<Pipelines>, region: Region) -> SubFrameView {
-        let Self { scene, options, file, .. } = self;
+        let Self { options, file, .. } = self;
+        let map = options.environment_map.as_ref();
+        SubFrameView::new(pipelines, region, map, self.drawn(), file.values)
+    }
+
+    /// The sub-frames as the tiles' view draws them.
+    fn drawn(&self) -> SubFrames {
+        let Self { scene, options, .. } = self;
         let mut drawn = self.sub_frames.clone();
         drawn.change(|drawn| {
             drawn.integrator.denoise = options.denoises(scene);
@@ -126,7 +137,19 @@ impl Subject {
                 drawn.integrator.noise = 0.0;
             }
         });
-        SubFrameView::new(pipelines, region, options.environment_map.as_ref(), drawn, file.values)
+        drawn
+    }
+
+    /// A view with the samples of `other`, if they are those of `region`.
+    fn view_of_samples(&self, other: &View, region: Region) -> Option<SubFrameView> {
+        let drawn = self.drawn();
+        let [scene] = drawn.scenes() else { return None };
+        // Samples before a transparent background are others.
+        if other.region() != region || self.options.is_transparent {
+            return None;
+        }
+        let view = other.still_of_samples(scene, self.file.values)?;
+        Some(SubFrameView::of_samples(view, drawn))
     }
 }
 
@@ -246,6 +269,28 @@ impl<W: Write> StillJob<W> {
         })
     }
 
+    /// Takes the samples of `view`, a view on the same device, if they are those of this still: it is then only displayed
+    /// and encoded. Else, and where the picture is too large, the still is rendered.
+    ///
+    /// Call it before the first step. `view` may change afterwards.
+    #[must_use]
+    pub fn with_samples_of(mut self, view: &View) -> Self {
+        let sheet = self.tiling.sheet();
+        let size_px = sheet.size_px();
+        let pixels: u64 = size_px.map(u64::from).iter().product();
+        let tiling = Tiling::whole(sheet);
+        let tile = tiling.tile(0);
+        let fits = pixels <= MAX_WHOLE_PX
+            && pixels * self.pixel_bytes as u64 <= MAX_WHOLE_BYTES
+            && size_px[0] * self.subject.file.values.texels_per_pixel() <= MAX_REGION_PX;
+        if fits && let Some(view) = self.subject.view_of_samples(view, tile.rendered) {
+            self.view = view;
+            self.tiling = tiling;
+            self.overview = None;
+        }
+        self
+    }
+
     /// Does the work that needs no waiting: submits, takes a readback, encodes some rows.
     ///
     /// Call it until it returns [`StillStatus::Done`]: in a page once per displayed frame,
@@ -302,6 +347,11 @@ impl<W: Write> StillJob<W> {
     /// Number of tiles whose pixels have been read from the device.
     pub fn finished_tiles(&self) -> u32 {
         self.tile_index - u32::from(self.in_flight.is_some())
+    }
+
+    /// Waits for the device.
+    pub(super) fn wait(&self) {
+        self.view.view().wait();
     }
 
     /// Ends the file and returns the sink.
@@ -398,30 +448,5 @@ impl<W: Write> StillJob<W> {
         let Some(overview) = &self.overview else { return of_tiles };
         let done = self.samples * of_tiles + overview.samples() * overview.part_done();
         done / (self.samples + overview.samples())
-    }
-}
-
-impl<W: Write> StillJob<W> {
-    /// Runs the job to its end and waits for the GPU; native only.
-    ///
-    /// `on_status` gets every status, and cancels the job by returning `Break`.
-    ///
-    /// # Errors
-    /// As [`Self::step`] and [`Self::finish`]; [`ExportError::Cancelled`] after `Break`.
-    pub fn run(
-        mut self,
-        mut on_status: impl FnMut(StillStatus) -> ControlFlow<()>,
-    ) -> Result<W, ExportError> {
-        let clock = Instant::now();
-        loop {
-            let status = self.step(clock.elapsed().as_secs_f64())?;
-            if on_status(status).is_break() {
-                return Err(ExportError::Cancelled);
-            }
-            if matches!(status, StillStatus::Done { .. }) {
-                return self.finish();
-            }
-            self.view.view().wait();
-        }
     }
 }

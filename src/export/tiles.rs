@@ -53,6 +53,11 @@ impl Tiling {
         Self { sheet, tile_px, columns, rows, apron_px }
     }
 
+    /// One tile for each picture.
+    pub fn whole(sheet: Sheet) -> Self {
+        Self::new(sheet, sheet.picture_px.map(|px| px.next_multiple_of(WORKGROUP_SIDE)), 0)
+    }
+
     /// The sheet.
     pub fn sheet(&self) -> Sheet {
         self.sheet

@@ -226,6 +226,16 @@ impl Schedule {
         reuse
     }
 
+    /// Takes the progress of another schedule of the same picture, and returns what of its pixels is there: the caller
+    /// copies that.
+    ///
+    /// `whole`: all pixels of the region.
+    pub fn take_over(&mut self, other: &Self, whole: Overlap) -> Reuse {
+        self.progress.clone_from(&other.progress);
+        self.is_converged = other.is_converged;
+        self.resize(whole.size_px, Some(whole), 0)
+    }
+
     /// Samples of the pixels that are kept from a picture of another width; 0 without such pixels.
     pub fn kept_samples(&self) -> u32 {
         self.progress.kept_samples()

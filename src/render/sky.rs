@@ -135,7 +135,7 @@ fn alias_table(energies: &[f64]) -> Vec<Cell> {
 }
 
 /// Keeps the sky of the last scene, since a map's table takes a while.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct SkyCache {
     gradient: Option<(scene::Sky, Arc<SampledSky>)>,
     map: Option<Arc<SampledSky>>,

@@ -34,6 +34,7 @@ use crate::{
 mod color_following;
 mod colors;
 mod display;
+mod from_samples;
 mod parts;
 mod paths;
 mod prepare;

@@ -23,8 +23,7 @@ use crate::{
     gpu::Gpu,
     scene::document,
     ui::{
-        Action, DisplayInputs, GalleryState, KeptPicture, Sharing, StillFormat,
-        file_progress::SceneUse, theme,
+        Action, DisplayInputs, GalleryState, KeptPicture, Sharing, file_progress::SceneUse, theme,
     },
 };
 
@@ -143,15 +142,7 @@ impl eframe::App for App {
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
         Action::SavePicture { size_px, file, pair } => {
-            let is_new = file.format == StillFormat::Exr
-                || file.is_deep()
-                || file.is_transparent()
-                || pair;
-            let same = if is_new { None } else { engine.finished_picture(session, size_px) };
-            match same {
-                Some(picture) => picture.save(file, &session.mailbox),
-                None => engine.exporter.start_still(size_px, file, pair, session),
-            }
+            engine.save_picture(size_px, file, pair, session);
         }
         Action::SaveSequence { size_px, frames: [first, end], format, pair } => {
             engine.exporter.request_sequence(size_px, first..end, (format, pair), session);

@@ -23,7 +23,7 @@ use super::{
 use crate::{
     gpu::Gpu,
     render::{Activity, Pipelines, Report},
-    ui::{self, SmallTextures, loss_policy::SafeMode},
+    ui::{self, SmallTextures, StillFile, StillFormat, loss_policy::SafeMode},
 };
 
 /// Milliseconds between two ticks: the shortest timer that browsers allow.
@@ -113,8 +113,27 @@ impl Engine {
         Some(self.with_scene(self.view.texture()?, session))
     }
 
+    /// Saves a picture of the edited scene; with `pair`, each eye is a file.
+    ///
+    /// What the view has finished of the same picture is not rendered again.
+    pub fn save_picture(
+        &mut self,
+        size_px: [u32; 2],
+        file: StillFile,
+        pair: bool,
+        session: &mut Session,
+    ) {
+        let is_of_display =
+            file.format != StillFormat::Exr && !file.is_deep() && !file.is_transparent() && !pair;
+        let same = if is_of_display { self.finished_picture(session, size_px) } else { None };
+        match same {
+            Some(picture) => picture.save(file, &session.mailbox),
+            None => self.exporter.start_still(size_px, (file, pair), self.view.view(), session),
+        }
+    }
+
     /// The picture on the screen, if a still of `size_px` of the edited scene would be the same.
-    pub fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
+    fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
         let scene = session.interface.scene();
         if session.interface.shown_scene() != scene {
             return None;

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     export::{PictureFormat, StillOptions},
-    render::Pipelines,
+    render::{Pipelines, View},
     scene::Project,
     ui::{ExportProgress, SequenceFormat, StillFile, StillFormat},
 };
@@ -101,11 +101,13 @@ impl Exporter {
     }
 
     /// Starts to export the scene in view; with `pair`, each eye is a file.
+    ///
+    /// `view`: the view on the screen, whose samples are taken if they are those of the picture.
     pub fn start_still(
         &mut self,
         size_px: [u32; 2],
-        file: StillFile,
-        pair: bool,
+        (file, pair): (StillFile, bool),
+        view: Option<&View>,
         session: &mut Session,
     ) {
         let environment_map = session.interface.environment_map().cloned();
@@ -117,7 +119,8 @@ impl Exporter {
             is_transparent: file.is_transparent(),
             ..StillOptions::new(size_px)
         };
-        match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {
+        let scene = session.interface.scene();
+        match StillExport::start(&self.pipelines, scene, options, pair, view) {
             Ok(still) => self.begin(Export::Still(Box::new(still))),
             Err(error) => session.show_error(error.explain()),
         }

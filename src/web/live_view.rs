@@ -10,7 +10,7 @@ use eframe::egui_wgpu::RenderState;
 use crate::{
     fractal::SharedModel,
     render::{Activity, Pace, Pipelines, Region, Report, View},
-    scene::{EnvironmentMap, Scene},
+    scene::{EnvironmentMap, Scene, StereoLayout},
     ui,
 };
 
@@ -77,18 +77,24 @@ impl LiveView {
         self.view.as_ref().and_then(View::texture)
     }
 
+    /// The view, once it has a size.
+    pub fn view(&self) -> Option<&View> {
+        self.view.as_ref()
+    }
+
     /// The picture on the screen, if a still of `scene` and `size_px` would be the same picture.
     ///
-    /// Light paths are denoised differently in stills, and stereo pictures have another layout.
+    /// Stills with a picture for each eye have another layout.
     pub fn finished(&self, scene: &Scene, size_px: [u32; 2]) -> Option<&wgpu::Texture> {
         let (view, texture) = (self.view.as_ref()?, self.texture()?);
         let report = view.report();
         let is_finished = report.is_finished()
             && report.samples_done >= report.samples_wanted
             && !view.has_pending_scene();
-        let is_plain = !scene.traces_paths() && !scene.camera.stereo.is_on();
+        let layout = scene.camera.stereo.layout;
+        let is_one_picture = matches!(layout, StereoLayout::Off | StereoLayout::Anaglyph);
         let is_same_size = [texture.width(), texture.height()] == size_px;
-        (is_finished && is_plain && is_same_size).then_some(texture)
+        (is_finished && is_one_picture && is_same_size).then_some(texture)
     }
 
     /// The view's report.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::files::Download;
 use crate::{
     export::{ExportError, Eye, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
-    render::Pipelines,
+    render::{Pipelines, View},
     scene::Scene,
 };
 
@@ -44,6 +44,8 @@ pub enum ExportStatus {
 impl StillExport {
     /// Starts the export of `scene`; with `pair`, each eye is a file.
     ///
+    /// `view`: a view whose samples are taken if they are those of the picture.
+    ///
     /// # Errors
     /// A size or a scene out of range.
     pub fn start(
@@ -51,12 +53,17 @@ impl StillExport {
         scene: &Scene,
         options: StillOptions,
         pair: bool,
+        view: Option<&View>,
     ) -> Result<Self, ExportError> {
         let eyes: &[_] = if pair { &[Some(Eye::Left), Some(Eye::Right)] } else { &[None] };
         let options = StillOptions { eye: eyes[0], ..options };
+        let job = StillJob::new(pipelines, scene, options.clone(), Download::default())?;
         Ok(Self {
             pipelines: pipelines.clone(),
-            job: StillJob::new(pipelines, scene, options.clone(), Download::default())?,
+            job: match view {
+                Some(view) => job.with_samples_of(view),
+                None => job,
+            },
             scene: scene.clone(),
             options,
             eyes,

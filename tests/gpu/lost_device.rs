@@ -1,10 +1,10 @@
 //! Exports whose device is lost on the way: they go on with another one, after the last finished tile or frame.
 
-use std::sync::Arc;
+use std::{cell::Cell, ops::ControlFlow, sync::Arc};
 
 use mandelight::{
     export::{
-        self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus,
+        self, ExportError, PictureFormat, RunDevice, StillJob, StillOptions, StillStatus,
         sequence::{FrameSink, SequenceJob},
     },
     render::Pipelines,
@@ -155,4 +155,62 @@ fn a_sequence_goes_on_with_the_frame_that_was_lost() {
     step_until(&mut job, pipelines(), |job| job.step(0.0), |_| false);
     let resumed = job.finish().expect("all frames").0;
     assert!(resumed == whole, "the frames are others");
+}
+
+/// Devices that are lost after so many steps each.
+struct Failing {
+    lifetimes: std::vec::IntoIter<u32>,
+    steps_left: Cell<u32>,
+    pipelines: Arc<Pipelines>,
+}
+
+impl Failing {
+    fn new(lifetimes: &[u32]) -> Self {
+        let mut lifetimes = lifetimes.to_vec().into_iter();
+        let steps_left = Cell::new(lifetimes.next().expect("a device"));
+        Self { lifetimes, steps_left, pipelines: fresh_pipelines() }
+    }
+}
+
+impl RunDevice for Failing {
+    fn is_lost(&self) -> bool {
+        if self.steps_left.get() == 0 {
+            self.pipelines.gpu.device.destroy();
+            return true;
+        }
+        self.steps_left.set(self.steps_left.get() - 1);
+        false
+    }
+
+    fn replace(&mut self) -> Option<Arc<Pipelines>> {
+        self.steps_left.set(self.lifetimes.next()?);
+        self.pipelines = fresh_pipelines();
+        Some(self.pipelines.clone())
+    }
+}
+
+/// Runs a still on devices that live for so many steps.
+fn run_on(lifetimes: &[u32]) -> Result<Vec<u8>, ExportError> {
+    let mut device = Failing::new(lifetimes);
+    let job = still(&sampled(Scene::default(), 2), PictureFormat::Png, &device.pipelines);
+    let file = job.run_on(&mut device, |_| ControlFlow::Continue(()))?;
+    assert_eq!(device.lifetimes.len(), 0, "{lifetimes:?}: the job was faster");
+    Ok(file)
+}
+
+#[test]
+fn a_run_goes_on_with_another_device() {
+    let whole = run_on(&[u32::MAX]).expect("a file");
+    // At the start, amid the tiles, twice.
+    for lifetimes in [&[0, u32::MAX][..], &[20, u32::MAX], &[12, 15, u32::MAX]] {
+        assert!(run_on(lifetimes).expect("a file") == whole, "{lifetimes:?}: another picture");
+    }
+}
+
+#[test]
+fn a_run_ends_without_another_device_or_if_each_is_lost_at_one_tile() {
+    for lifetimes in [&[20][..], &[0, 0, u32::MAX]] {
+        let result = run_on(lifetimes);
+        assert!(matches!(result, Err(ExportError::Gpu(_))), "{lifetimes:?}");
+    }
 }

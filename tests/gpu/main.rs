@@ -37,6 +37,7 @@ mod soft_shadows;
 mod staleness;
 mod stereo;
 mod still;
+mod still_samples;
 mod still_values;
 mod surprise;
 mod thumbnails;
