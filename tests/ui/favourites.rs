@@ -53,3 +53,21 @@ fn a_kept_view_that_cannot_be_read_changes_nothing() {
     assert_eq!(*scene(&harness), presets::opening());
     assert_eq!(harness.state().actions, [Action::ReportUnreadableFavourite]);
 }
+
+/// With rows for fingers, the field is higher than a line of text.
+#[test]
+fn the_name_of_a_kept_view_stands_in_the_middle_of_its_field() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [844.0, 800.0]));
+    touch(&mut harness);
+    press(&mut harness, "Mine");
+    let kept = document::project_to_json_compact(harness.state().interface.project());
+    harness.state_mut().interface.keep_favourite(kept, Vec::new());
+    harness.run();
+    let field = harness.get_by_label("Name of the view").rect();
+    assert!(field.height() >= 44.0, "{field:?}");
+    let names = painted(&harness, "View 1");
+    let text = names.iter().find(|text| field.contains_rect(**text)).expect("the name");
+    let off = text.center().y - field.center().y;
+    assert!(off.abs() < 3.0, "{text:?} in {field:?}");
+}

@@ -1,6 +1,6 @@
 //! The list of views that a person keeps: to keep the present one, open, rename, remove.
 
-use egui::{Button, RichText, TextEdit, Ui, vec2};
+use egui::{Align2, Button, RichText, TextEdit, Ui, vec2};
 
 use super::{card_grid::arrange, context::Context};
 use crate::ui::{
@@ -57,7 +57,7 @@ fn edit_opened(ui: &mut Ui, cx: &mut Context<'_>) {
         let remove = 84.0;
         let height = ui.spacing().interact_size.y;
         let width = (ui.available_width() - remove - ui.spacing().item_spacing.x).max(60.0);
-        let field = TextEdit::singleline(&mut name);
+        let field = TextEdit::singleline(&mut name).align(Align2::LEFT_CENTER);
         let field = ui.add_sized(vec2(width, height), field).help("The view's name");
         if field.changed() {
             cx.favourites.rename(index, &name);
