@@ -12,10 +12,17 @@ use crate::stage::*;
 
 /// A page with the editor open on a formula.
 fn editing(id: &str) -> Harness<'static, Stage> {
+    editing_in(id, [1280.0, 3000.0])
+}
+
+/// The same in a window of this size.
+fn editing_in(id: &str, size: [f32; 2]) -> Harness<'static, Stage> {
     let fractal = Fractal::new(formula::find(id).expect("a formula"));
     let scene = Scene { fractal, ..Scene::default() };
-    let mut harness = stage(scene, unfolded(), [1280.0, 3000.0]);
-    press(&mut harness, "Edit the formula…");
+    let mut harness = stage(scene, unfolded(), size);
+    // The button may be out of sight.
+    button(&harness, "Edit the formula…").click_accesskit();
+    harness.run();
     harness
 }
 
@@ -209,4 +216,16 @@ fn kept_formulas_are_steps_of_hybrids_too() {
     let hybrid = scene(&harness).fractal.hybrid().expect("a hybrid").clone();
     assert_eq!(hybrid.steps.len(), 2);
     assert!(hybrid.steps.iter().all(|step| step.formula().text() == Some(TEXT)));
+}
+
+/// In a low window, no room is left empty below the text.
+#[test]
+fn the_text_has_the_room_that_a_low_window_leaves() {
+    let mut harness = without_motion(editing_in("quaternion_julia", [844.0, 390.0]));
+    touch(&mut harness);
+    harness.run();
+    let functions = painted(&harness, "Functions")[0];
+    let window = harness.state().interface.rects().get("formula window").expect("the window");
+    let empty = window.bottom() - functions.bottom();
+    assert!((0.0..40.0).contains(&empty), "{functions:?} in {window:?}");
 }

@@ -33,6 +33,10 @@ const PAUSE_SECS: f64 = 0.3;
 const COMPLETIONS: usize = 4;
 /// Least width of the window, in points: narrower, its texts would be taller than a screen.
 const MIN_WIDTH: f32 = 280.0;
+/// Least height of the text, in points.
+const MIN_TEXT_HEIGHT: f32 = 120.0;
+/// Height of what is below the text before it was drawn, in points.
+const BELOW_TEXT: f32 = 90.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
 
@@ -125,7 +129,7 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     let screen = ctx.content_rect();
     let size = vec2(WINDOW[0].min(screen.width() - 24.0), WINDOW[1].min(0.72 * screen.height()));
     let mut is_open = true;
-    egui::Window::new("Formula")
+    let shown = egui::Window::new("Formula")
         .title_bar(false)
         .pivot(Align2::LEFT_BOTTOM)
         .default_pos(screen.left_bottom() + vec2(12.0, -40.0))
@@ -138,6 +142,9 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
             let scroll = ScrollArea::vertical().id_salt("window").auto_shrink(false);
             scroll.show(ui, |ui| contents(ui, cx, &mut draft));
         });
+    if let Some(shown) = shown {
+        cx.rects.record("formula window", &shown.response);
+    }
     draft.is_open = is_open;
     if !is_open {
         // The next frame draws a text whose pause is not over.
@@ -148,7 +155,10 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
 }
 
 fn contents(ui: &mut Ui, cx: &mut Context<'_>, draft: &mut Draft) {
-    let height = (ui.available_height() - 150.0).max(120.0);
+    // The text has the height that the last frame left: rows for fingers are higher, and the functions may be open.
+    let id = ui.scope_id().with("height below the text");
+    let below = ui.data(|data| data.get_temp(id)).unwrap_or(BELOW_TEXT);
+    let height = (ui.available_height() - below).max(MIN_TEXT_HEIGHT);
     ScrollArea::vertical().id_salt("text").max_height(height).show(ui, |ui| {
         let id = ui.scope_id().with("editor");
         offer(ui, id, draft);
@@ -178,9 +188,15 @@ fn contents(ui: &mut Ui, cx: &mut Context<'_>, draft: &mut Draft) {
         }
         completion_row(ui, id, draft);
     });
+    let top = ui.min_rect().bottom();
     message(ui, draft);
     keep_row(ui, cx, draft);
     help(ui);
+    let drawn = ui.min_rect().bottom() - top;
+    if (drawn - below).abs() > 0.5 {
+        ui.data_mut(|data| data.insert_temp(id, drawn));
+        ui.ctx().request_repaint();
+    }
 }
 
 /// Finds the words that could stand at the cursor. They stay while a button with one of them is pressed, which takes the focus.
