@@ -157,15 +157,20 @@ export class Mandelight {
   }
 
   /** Scrolls the panel until a widget is visible, and returns the widget's middle. */
-  async scrollTo(name) {
+  scrollTo(name) {
+    return this.scrollUntilSeen(() => this.middle(name));
+  }
+
+  /** Scrolls the panel until the point that `find` returns, at rest, is visible in it, and returns the point. */
+  async scrollUntilSeen(find) {
     for (;;) {
       const panel = await this.rect("panel");
-      const [x, y] = await this.middle(name);
+      const [x, y] = await find();
       const [top, bottom] = [panel.y + PANEL_HEADING, panel.y + panel.height - PANEL_FOOT];
       if (y > top && y < bottom) return [x, y];
       await this.tab.mouse.move(panel.x + panel.width / 2, (top + bottom) / 2);
       await this.tab.mouse.wheel(0, y - (top + bottom) / 2);
-      await this.visit.until("the panel to scroll", async () => (await this.middle(name))[1] !== y, 60);
+      await this.visit.until("the panel to scroll", async () => (await find())[1] !== y, 60);
     }
   }
 

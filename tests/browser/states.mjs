@@ -3,11 +3,10 @@
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
-const PHONE = { hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
-const WINDOWS = [
-  { viewport: { width: 1280, height: 720 } },
-  { viewport: { width: 390, height: 844 }, ...PHONE },
-  { viewport: { width: 844, height: 390 }, ...PHONE },
+const DEVICES = [
+  { sizes: [[1280, 720]], context: {} },
+  // A phone is turned, as a hand does it: a page for each side would load and compile once more.
+  { sizes: [[390, 844], [844, 390]], context: { hasTouch: true, isMobile: true, deviceScaleFactor: 1 } },
 ];
 
 /**
@@ -25,18 +24,23 @@ const STATES = [
   { name: "fly", key: "f", rect: "fly keys" },
 ];
 
-await visit({ context: WINDOWS[0] }, async (v) => {
+await visit({ context: windowOf(DEVICES[0]) }, async (v) => {
   v.seen.states = [];
-  await photograph(v, WINDOWS[0]);
-  for (const window of WINDOWS.slice(1)) {
-    await v.openAnew(window);
-    await photograph(v, window);
+  await photograph(v, DEVICES[0]);
+  for (const device of DEVICES.slice(1)) {
+    await v.openAnew(windowOf(device));
+    await photograph(v, device);
   }
 });
 
-async function photograph(v, { viewport: { width, height }, hasTouch }) {
+/** The context of a device's first window. */
+function windowOf({ sizes: [[width, height]], context }) {
+  return { viewport: { width, height }, ...context };
+}
+
+async function photograph(v, { sizes, context: { hasTouch } }) {
   const page = new Mandelight(v);
-  await page.open();
+  let [width, height] = sizes[0];
   const shoot = async (state) => {
     const name = `${state}-${width}x${height}`;
     await v.screenshot(name);
@@ -47,13 +51,49 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     await page.settled();
     await shoot(state);
   };
+  /** Whether the interface has the window's size: a panel at the side is beside the status line. */
+  const isDrawn = async () => {
+    const parts = (await Promise.all([page.rect("status"), page.rect("panel")])).filter(Boolean);
+    const ends = [(it) => it.x + it.width, (it) => it.y + it.height].map((end) => Math.max(...parts.map(end)));
+    return Math.abs(ends[0] - width) < 1 && Math.abs(ends[1] - height) < 1;
+  };
+  /** Runs steps in each of the device's windows. */
+  const inEachWindow = async (steps) => {
+    for (const size of sizes) {
+      [width, height] = size;
+      await v.tab.setViewportSize({ width, height });
+      await v.until("the window's size", isDrawn, 60);
+      await v.timed(`${steps.name} ${width}x${height}`, steps);
+    }
+  };
   const click = async (name) => v.tab.mouse.click(...(await page.middle(name)));
+  const button = (name) => v.tab.getByRole("button", { name, exact: true });
   const sampled = (samples) => v.tab.evaluate((count) => {
     const document = JSON.parse(window.mandelight.scene());
     document.scene.quality.samples = count;
     window.mandelight.setScene(JSON.stringify(document));
   }, samples);
-  // The states of the panel at the side. A phone's sheet shows its upper end alone: this script scrolls by a wheel.
+  const begin = async () => {
+    await page.firstPicture();
+    await sampled(1);
+    // The page knows of fingers by the first touch.
+    if (hasTouch) await v.tab.touchscreen.tap(...(await page.middle("status")));
+  };
+
+  // A sheet is shown at half its height; the panel of a low window is hidden until it is asked for.
+  const isHidden = async () => !(await page.rect("panel"));
+  const openPanel = async () => {
+    if (await page.rect("sheet handle")) await page.drag("sheet handle", [0, -0.4 * height]);
+    else if (await isHidden()) await click("panel toggle");
+    await page.rested("the panel", () => page.rect("panel"));
+  };
+  const closePanel = async () => {
+    if (await page.rect("sheet handle")) return page.drag("sheet handle", [0, 0.4 * height]);
+    if (!hasTouch) return;
+    await click("panel toggle");
+    await v.until("the panel to be hidden", isHidden, 60);
+  };
+
   const lights = async () => {
     await page.click("All lights");
     await page.settled();
@@ -61,33 +101,42 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     await shootSettled("lights");
     await page.click("All lights");
   };
-  const ofThePanel = async () => {
-    // The lists are at the upper end of the panel.
-    const scroll = async (distance) => {
-      const panel = await page.rect("panel");
-      await v.tab.mouse.move(panel.x + panel.width / 2, panel.y + panel.height / 2);
-      await v.tab.mouse.wheel(0, distance);
+  const mine = async () => {
+    const kept = () => v.tab.evaluate(() => localStorage.getItem("mandelight.favourites"));
+    const before = await kept();
+    // A list's heading scrolls to itself when it is pressed.
+    const scrollToTop = async () => {
+      await button("Mine").evaluate((it) => it.click());
+      await page.rested("the list", () => page.rect("keep view"));
     };
-    await scroll(-20000);
-    await click("Mine");
-    await click("keep view");
-    await v.until("the view to be kept", () => v.tab.evaluate(() => localStorage.getItem("mandelight.favourites")));
+    await scrollToTop();
+    await page.click("keep view");
+    await v.until("the view to be kept", async () => (await kept()) !== before);
+    await scrollToTop();
     await shootSettled("mine");
-    await click("Scenes");
-
-    // A pointer over a swatch.
+    await button("Scenes").evaluate((it) => it.click());
+  };
+  const look = async () => {
+    const swatch = v.tab.getByRole("button", { name: /^Look: / }).nth(2);
     const place = async () => {
-      const box = await v.tab.getByRole("button", { name: /^Look: / }).nth(2).boundingBox();
+      const box = await swatch.boundingBox();
       return [box.x + box.width / 2, box.y + box.height / 2];
     };
-    await scroll((await place())[1] - height / 2);
-    const [x, y] = await page.rested("the swatch", place);
+    const [x, y] = await page.scrollUntilSeen(() => page.rested("the swatch", place));
+    if (hasTouch) {
+      // Fingers hover nowhere: a tap shows the look, and keeps it.
+      await page.changed("a tap on a swatch", () => v.tab.touchscreen.tap(x, y));
+      await shootSettled("look");
+      await page.changed("undoing the look", () => v.tab.keyboard.press("Control+z"));
+      return;
+    }
     await v.tab.mouse.move(x, y - 9);
     await v.tab.mouse.move(x, y);
     await page.rested("the preview", () => page.rect("look preview"));
     await shootSettled("look");
     await v.tab.mouse.move(...(await page.middle("view")));
-
+  };
+  const saving = async () => {
     // A picture that is not finished is rendered again to save it.
     await sampled(256);
     await v.tab.keyboard.press("Control+s");
@@ -97,75 +146,82 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     await page.says("Saving was cancelled.");
     await page.rested("the notice", () => page.rect("notice"));
     await shoot("notice");
+    await button("Dismiss").evaluate((it) => it.click());
     await sampled(1);
   };
-  const formula = async () => {
-    // The opening scene's formula has no text.
-    await page.show(process.env.MANDELIGHT_FORMULA);
+  const opening = () => shootSettled("opening");
+  const ofThePanel = async () => {
+    await openPanel();
     await page.click("more");
-    await page.click("Fractal");
-    await v.tab.getByRole("button", { name: "Edit the formula…", exact: true }).evaluate((it) => it.click());
-    await page.rested("the editor", () => page.rect("formula text"));
-    await shootSettled("formula");
-  };
-
-  await sampled(1);
-  // The page knows of fingers by the first touch.
-  if (hasTouch) await v.tab.touchscreen.tap(...(await page.middle("status")));
-
-  // A sheet is shown at half its height; the panel of a low window is hidden until it is asked for.
-  const isHidden = async () => !(await page.rect("panel"));
-  const drag = async (part) => {
-    if (await page.rect("sheet handle")) await page.drag("sheet handle", [0, part * height]);
-  };
-  await shootSettled("opening");
-  await drag(-0.4);
-  const wasHidden = await isHidden();
-  if (wasHidden) await click("panel toggle");
-  await page.rested("the panel", () => page.rect("panel"));
-  if (!hasTouch) await page.click("more");
-  await shootSettled("panel");
-  if (!hasTouch) {
+    await shootSettled("panel");
     await lights();
     await page.click("more");
-    await ofThePanel();
-  }
-  await drag(0.4);
-  if (wasHidden) {
-    await click("panel toggle");
-    await v.until("the panel to be hidden", isHidden, 60);
-  }
+    await mine();
+    await look();
+    await saving();
+    await closePanel();
+  };
 
-  for (const { name, key, rect, words, isToggle, hasPictures } of STATES) {
-    await v.tab.keyboard.press(key);
-    await page.rested(name, () => page.rect(rect));
-    if (words) await v.tab.keyboard.type(words);
-    if (hasPictures) await page.smallPictures();
-    await shootSettled(name);
-    await v.tab.keyboard.press(isToggle ? key : "Escape");
-    await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
-  }
+  const ofKeys = async () => {
+    for (const { name, key, rect, words, isToggle, hasPictures } of STATES) {
+      await v.tab.keyboard.press(key);
+      await page.rested(name, () => page.rect(rect));
+      if (words) await v.tab.keyboard.type(words);
+      if (hasPictures) await page.smallPictures();
+      await shootSettled(name);
+      await v.tab.keyboard.press(isToggle ? key : "Escape");
+      await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
+    }
+  };
 
-  if (!hasTouch) await formula();
+  const ofTheFormula = async () => {
+    await openPanel();
+    await page.click("more");
+    await page.click("Fractal");
+    await button("Edit the formula…").evaluate((it) => it.click());
+    await page.rested("the editor", () => page.rect("formula text"));
+    await shootSettled("formula");
+    await v.tab.keyboard.press("Escape");
+    await v.until("the editor to be gone", async () => !(await page.rect("formula text")), 60);
+    await page.click("Fractal");
+    await page.click("more");
+    await closePanel();
+  };
 
   // What the document shows over the interface.
-  await v.tab.evaluate(() => (document.getElementById("update").hidden = false));
-  await shoot("update");
-  await v.tab.evaluate(() => {
-    document.getElementById("update").hidden = true;
-    window.mandelightStop("a panic of the test");
-  });
-  await shoot("stopped");
+  const ofTheDocument = async () => {
+    await v.tab.evaluate(() => (document.getElementById("update").hidden = false));
+    await shoot("update");
+    await v.tab.evaluate(() => {
+      document.getElementById("update").hidden = true;
+      window.mandelightStop("a panic of the test");
+    });
+    await shoot("stopped");
+    await v.tab.evaluate(() => (document.getElementById("notice").hidden = true));
+  };
+
+  const ofTheGallery = async () => {
+    await openPanel();
+    await page.rested("a card", () => page.rect("gallery 0"));
+    await shootSettled("gallery");
+    await closePanel();
+  };
+
+  await v.tab.goto(`${v.address}?test`);
+  await begin();
+  await inEachWindow(opening);
+  await inEachWindow(ofThePanel);
+  await inEachWindow(ofKeys);
+  // The opening scene's formula has no text.
+  await page.show(process.env.MANDELIGHT_FORMULA);
+  await inEachWindow(ofTheFormula);
+  await inEachWindow(ofTheDocument);
 
   // One of its pictures is missing.
   v.provoked = /404/;
   await v.tab.goto("about:blank");
   await v.tab.goto(`${v.address}?test&gallery=${encodeURIComponent("../../pictures/")}`);
-  await page.firstPicture();
-  await sampled(1);
-  await drag(-0.4);
-  if (await isHidden()) await click("panel toggle");
-  await page.rested("a card", () => page.rect("gallery 0"));
-  await shootSettled("gallery");
+  await begin();
+  await inEachWindow(ofTheGallery);
   v.provoked = null;
 }
