@@ -1,10 +1,11 @@
 // The picture that the document contains: there before the module, and in the place of the view's first one.
-// Then a visitor who asks for little motion.
+// Then a visitor who asks for little motion, and one with a phone.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
 const SIZE = { viewport: { width: 640, height: 400 } };
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
 
 await visit({ context: SIZE }, async (v) => {
   v.seen.normal = await watched(v, "normal");
@@ -28,16 +29,35 @@ await visit({ context: SIZE }, async (v) => {
   await v.openAnew(SIZE);
   const release = await holdModule(v);
   await v.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_LINK}`);
-  v.seen.linked = await v.until("the notice", async () => {
+  v.seen.linked = await loadingNotice(v);
+  await v.screenshot("linked-640x400");
+  release();
+  const linked = new Mandelight(v);
+  await linked.firstPicture();
+  v.seen.scenes = { linked: await linked.scene() };
+
+  // So has the next visit, which goes on with that scene.
+  await v.until("the scene to be stored", () => v.tab.evaluate(() => localStorage.getItem("mandelight.scene")));
+  await v.tab.goto("about:blank");
+  const releaseAgain = await holdModule(v);
+  await v.tab.goto(`${v.address}?test`);
+  v.seen.stored = await loadingNotice(v);
+  releaseAgain();
+  await linked.firstPicture();
+  v.seen.scenes.stored = await linked.scene();
+
+  await v.openAnew(PHONE);
+  v.seen.phone = await watched(v, "phone");
+});
+
+/** The notice of a page that is loading, and whether the opening picture stands behind it. */
+async function loadingNotice(v) {
+  const notice = await v.until("the notice", async () => {
     const notice = await v.notice();
     return notice?.detail && notice;
   });
-  v.seen.covered = await v.tab.evaluate(() => !document.getElementById("opening").hidden);
-  await v.screenshot("linked-640x400");
-  release();
-  await new Mandelight(v).firstPicture();
-  v.seen.scenes = { linked: await new Mandelight(v).scene() };
-});
+  return { ...notice, isCovered: await v.tab.evaluate(() => !document.getElementById("opening").hidden) };
+}
 
 /** Holds the module back until the returned function is called. */
 async function holdModule(v) {

@@ -18,7 +18,7 @@ fn the_opening_picture_is_there_at_once_and_the_view_takes_its_place() {
     let linked = (presets::opening_scenes()[3].scene)();
     let fragment = link::to_fragment(&linked).unwrap();
     let visit = Visit::run_with("opening", [("MANDELIGHT_LINK", fragment)]);
-    for name in ["normal", "reduced"] {
+    for name in ["normal", "reduced", "phone"] {
         let seen = &visit.seen[name];
         assert_eq!(seen["isModuleThere"], false, "{name}: the picture came with the module");
         let side = |name: &str| seen["view"][name].as_f64().unwrap();
@@ -48,13 +48,17 @@ fn the_opening_picture_is_there_at_once_and_the_view_takes_its_place() {
             }
         }
     }
-    for (name, motion) in [("normal", ["arrive", "0.4s"]), ("reduced", ["none", "0s"])] {
+    let moving = ["arrive", "0.4s"];
+    for (name, motion) in [("normal", moving), ("reduced", ["none", "0s"]), ("phone", moving)] {
         let seen = ["animation", "fade"].map(|what| visit.text(&format!("/{name}/{what}")));
         assert_eq!(seen, motion, "{name}");
     }
     assert_eq!(visit.number("/cameras"), 2.0, "the view flew despite reduced motion");
 
-    assert_eq!(visit.text("/linked/detail"), "Opening the scene…");
-    assert_eq!(visit.seen["covered"], false, "a link opened on the picture of another scene");
-    assert_eq!(visit.scene("linked"), linked);
+    for name in ["linked", "stored"] {
+        assert_eq!(visit.text(&format!("/{name}/detail")), "Opening the scene…", "{name}");
+        let is_covered = &visit.seen[name]["isCovered"];
+        assert_eq!(*is_covered, false, "a {name} scene opened on the picture of another one");
+        assert_eq!(visit.scene(name), linked, "{name}");
+    }
 }
