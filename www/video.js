@@ -27,8 +27,8 @@ const MAX_RESTARTS = 3;
 /** Seconds between key frames, to which players can jump. */
 const KEY_FRAME_SECS = 2;
 
-/** Bytes that are written to the disk at once. */
-const CHUNK_BYTES = 4 << 20;
+/** Bytes that are written to the disk at once: some frames of a small video, a part of one of a large video. */
+const CHUNK_BYTES = 64 << 10;
 
 /** The colours of HDTV, ITU-R BT.709: what players assume that do not read what a file says. */
 const BT709 = { primaries: "bt709", transfer: "bt709", matrix: "bt709", fullRange: false };

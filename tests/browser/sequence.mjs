@@ -1,5 +1,5 @@
 // A visit with a camera path: scrub it, play it, and save its frames, as videos and as pictures; first as
-// downloads, then through the browser's save dialogue, for which a mock stands here.
+// downloads, then through the browser's save dialogue, for which a mock stands here. Last, a turntable.
 
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -115,7 +115,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
           write: async (chunk) => {
             // Videos are written in places, zips in a row.
             const { data = chunk, position } = chunk;
-            window.written.push([Array.from(data), position]);
+            window.written.push([Array.from(data), position, window.framesEncoded]);
           },
           close: async () => void (window.fileIsClosed = true),
           abort: async () => void (window.isAborted = true),
@@ -131,11 +131,12 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await page.settled();
   const written = async (name) => {
     await press("save sequence");
-    await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 240);
+    await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 900);
     const pieces = await v.tab.evaluate(() => {
       window.fileIsClosed = false;
       return window.written.splice(0);
     });
+    v.seen.writes = pieces.map(([{ length: bytes }, , frames]) => ({ bytes, frames }));
     let file = Buffer.alloc(0);
     for (const [bytes, position] of pieces) {
       const at = position ?? file.length;
@@ -154,10 +155,15 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   // A cancelled video leaves no file, and the next one is whole.
   await v.tab.evaluate(() => {
     window.encoders = [];
+    window.framesEncoded = 0;
     window.VideoEncoder = class extends VideoEncoder {
       constructor(callbacks) {
         super(callbacks);
         window.encoders.push(this);
+      }
+      encode(frame, options) {
+        window.framesEncoded++;
+        super.encode(frame, options);
       }
     };
   });
@@ -172,6 +178,24 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     }), 60);
   await v.tab.evaluate(() => void window.written.splice(0));
   v.seen.video_names.push(await written("streamed.mp4"));
+
+  // A turntable: the file grows while frames are rendered, and the interface says how long that takes.
+  await page.changed("the turntable", () =>
+    v.tab.getByRole("button", { name: "Turntable", exact: true }).evaluate((button) => button.click()));
+  await v.tab.evaluate(() => {
+    window.framesEncoded = 0;
+    window.timesLeft = new Set();
+    const texts = document.getElementById("accessible-page");
+    new MutationObserver(() => {
+      for (const { textContent } of texts.children) {
+        if (/^Saving, .+ left$/.test(textContent)) window.timesLeft.add(textContent);
+      }
+    }).observe(texts, { childList: true, characterData: true, subtree: true });
+  });
+  scenes.turntable = await page.scene();
+  await written("turntable.mp4");
+  v.seen.frames_encoded = await v.tab.evaluate(() => window.framesEncoded);
+  v.seen.times_left = await v.tab.evaluate(() => [...window.timesLeft]);
 });
 
 /** Unpacks a zip into files with `prefix`, and returns their names in the zip. */

@@ -73,4 +73,27 @@ fn a_path_is_scrubbed_played_and_saved_as_videos_and_as_a_zip_of_its_frames() {
     assert_eq!(visit.seen["offered"], serde_json::json!([0, 0, 1]));
     let cancelled = serde_json::json!({ "isClosed": false, "encoders": ["closed"] });
     assert_eq!(visit.seen["cancelled"], cancelled);
+    turntable_was_streamed(&visit);
+}
+
+/// Part of a video's bytes that are written, at least, before its last frame is encoded.
+const STREAMED_PART: f64 = 0.4;
+
+fn turntable_was_streamed(visit: &Visit) {
+    let path = document::project_from_json(visit.text("/scenes/turntable")).unwrap().path;
+    let frames = path.frame_count();
+    assert_eq!(frames, 24, "12 seconds of 2 frames");
+    assert_eq!(visit.number("/frames_encoded"), f64::from(frames));
+    video::lasts(&visit.folder.join("turntable.mp4"), frames, 12.0);
+
+    let bytes_of = |is_counted: &dyn Fn(f64) -> bool| -> f64 {
+        let number = |write: &Value, name: &str| write[name].as_f64().unwrap();
+        let writes = visit.seen["writes"].as_array().unwrap().iter();
+        let counted = writes.filter(|write| is_counted(number(write, "frames")));
+        counted.map(|write| number(write, "bytes")).sum()
+    };
+    let early = bytes_of(&|encoded| encoded < f64::from(frames)) / bytes_of(&|_| true);
+    println!("{early:.2} of the turntable's bytes were written before its last frame");
+    assert!(early > STREAMED_PART, "{early}: {:#}", visit.seen["writes"]);
+    assert_ne!(visit.seen["times_left"], serde_json::json!([]), "no time left was shown");
 }

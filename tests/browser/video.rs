@@ -5,6 +5,8 @@ use std::{
     process::Command,
 };
 
+use serde_json::Value;
+
 use crate::picture::Picture;
 
 /// Mean difference that compression and half the resolution of colours may cost, in 8-bit steps.
@@ -36,4 +38,21 @@ pub fn shows_frames(video: &Path, pictures: &[PathBuf]) {
         assert!(is_nearest, "{name}, frame {index}: {steps:?} steps");
     }
     assert!(!picture_of(frames.len() + 1).exists(), "{name} has more frames");
+}
+
+/// Asserts that a video has this number of frames, and lasts `secs` seconds.
+pub fn lasts(video: &Path, frames: u32, secs: f64) {
+    let name = video.display();
+    let probed = Command::new("ffprobe")
+        .args(["-v", "error", "-count_frames", "-select_streams", "v:0"])
+        .args(["-show_entries", "stream=nb_read_frames:format=duration", "-of", "json"])
+        .arg(video)
+        .output()
+        .expect("ffprobe, which comes with FFmpeg");
+    assert!(probed.status.success(), "{name}: {}", String::from_utf8_lossy(&probed.stderr));
+    let found: Value = serde_json::from_slice(&probed.stdout).unwrap();
+    let number = |pointer: &str| found.pointer(pointer)?.as_str()?.parse::<f64>().ok();
+    assert_eq!(number("/streams/0/nb_read_frames"), Some(f64::from(frames)), "{name}: {found}");
+    let duration = number("/format/duration").unwrap_or_default();
+    assert!((duration - secs).abs() < 0.01, "{name} lasts {duration} s: {found}");
 }
