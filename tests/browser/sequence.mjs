@@ -180,6 +180,11 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.video_names.push(await written("streamed.mp4"));
 
   // A turntable: the file grows while frames are rendered, and the interface says how long that takes.
+  await page.changed("the frame rate", () => v.tab.evaluate(() => {
+    const document = JSON.parse(window.mandelight.scene());
+    document.path.frames_per_second = 1;
+    window.mandelight.setScene(JSON.stringify(document));
+  }));
   await page.changed("the turntable", () =>
     v.tab.getByRole("button", { name: "Turntable", exact: true }).evaluate((button) => button.click()));
   await v.tab.evaluate(() => {
