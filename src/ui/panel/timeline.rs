@@ -30,6 +30,9 @@ const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 /// Height of a window, in points, below which a narrow strip has one row of buttons, which scrolls.
 const LOW_WINDOW: f32 = 480.0;
 
+/// Least width of the progress of an export, in points: its longest time left stands beside its button.
+const LEAST_PROGRESS_PT: f32 = 270.0;
+
 /// Width of the reason why a kind of video is missing, in points.
 const REASON_WIDTH: f32 = 190.0;
 
@@ -329,7 +332,8 @@ impl Strip<'_, '_> {
                 ui.add_enabled(false, Button::new("Saving…"));
                 return;
             }
-            ui.allocate_ui(vec2(ui.available_width().clamp(120.0, 320.0), 40.0), |ui| {
+            let width = ui.available_width().clamp(LEAST_PROGRESS_PT, 320.0);
+            ui.allocate_ui(vec2(width, 40.0), |ui| {
                 ui.vertical(|ui| export::saving(ui, self.cx, progress));
             });
             return;
