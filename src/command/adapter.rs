@@ -57,11 +57,17 @@ impl RunDevice for StillDevice {
 
     fn replace(&mut self) -> Option<Arc<Pipelines>> {
         let reason = self.loss()?;
-        let gpu = self.adapter.open().ok()?;
+        let gpu = match self.adapter.open() {
+            Ok(gpu) => gpu,
+            Err(Failure::Usage(why) | Failure::Failed(why)) => {
+                message(&format!("the GPU could not be started again: {why}"));
+                return None;
+            }
+        };
         self.health = Health::of(&gpu);
         self.pipelines = Pipelines::for_stills(&gpu);
         message(&format!(
-            "the GPU was lost: {reason}; it was started again, and rendering goes on"
+            "the GPU was lost ({reason}) and was started again; rendering goes on from the last finished tile"
         ));
         Some(self.pipelines.clone())
     }

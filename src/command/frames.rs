@@ -331,10 +331,10 @@ impl Work<'_> {
                 ControlFlow::Continue(())
             }
         });
-        // A lost device causes many different errors; the driver's reason explains all of them.
-        let output = result.map_err(|error| match self.device.loss() {
-            Some(_) => ExportError::Cancelled,
-            None => error,
+        let output = result.map_err(|error| match (error, self.device.loss()) {
+            // A lost device causes many different errors; the driver's reason explains all of them.
+            (ExportError::Gpu(_), Some(_)) => ExportError::Cancelled,
+            (error, _) => error,
         })?;
         Ok(output.commit()?)
     }

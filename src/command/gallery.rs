@@ -44,8 +44,13 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
             continue;
         }
         // Opening a pipe would wait for a writer.
-        if !fs::metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
-            message(&format!("left out: {}: not a file", visible(file)));
+        let reason = match fs::metadata(&path) {
+            Ok(metadata) if metadata.is_file() => None,
+            Ok(_) => Some("not a file".to_owned()),
+            Err(error) => Some(error.to_string()),
+        };
+        if let Some(reason) = reason {
+            message(&format!("left out: {}: {reason}", visible(file)));
             continue;
         }
         match input::read_project(&path) {

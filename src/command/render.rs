@@ -141,18 +141,17 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
                 ControlFlow::Continue(())
             }
         });
-        // A lost device causes many different errors; the driver's reason explains all of them.
         let name = names(&files);
-        if let Some(reason) = device.loss() {
-            progress.finish_and_clear();
-            let text = format!("the GPU was lost: {reason}; {name} was not written");
-            return Err(Failure::failed(text));
-        }
-        complete.push(result.map_err(|error| match error {
-            ExportError::Cancelled => {
+        complete.push(result.map_err(|error| match (error, device.loss()) {
+            // A lost device causes many different errors; the driver's reason explains all of them.
+            (ExportError::Gpu(_), Some(reason)) => {
+                progress.finish_and_clear();
+                Failure::failed(format!("the GPU was lost: {reason}; {name} was not written"))
+            }
+            (ExportError::Cancelled, _) => {
                 Failure::failed(format!("interrupted; {name} was not written"))
             }
-            error => file.failed(error),
+            (error, _) => file.failed(error),
         })?);
     }
     let elapsed = progress.elapsed();

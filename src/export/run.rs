@@ -9,12 +9,12 @@ use web_time::Instant;
 use super::{ExportError, StillJob, StillStatus};
 use crate::render::Pipelines;
 
-/// The device of a run.
+/// A device that can be replaced once it is lost.
 pub trait RunDevice {
     /// Whether the device is lost.
     fn is_lost(&self) -> bool;
 
-    /// Replaces the lost device; none if there is no other.
+    /// Opens another device; none if that fails.
     fn replace(&mut self) -> Option<Arc<Pipelines>>;
 }
 
@@ -45,7 +45,9 @@ impl<W: Write> StillJob<W> {
         self.run_on(&mut OnlyDevice, on_status)
     }
 
-    /// Runs the job to its end. If `device` is lost, the job goes on with its replacement, from the last finished tile.
+    /// Runs the job to its end, on replacements of `device` if needed.
+    ///
+    /// After a loss the job goes on from the last finished tile. `on_status` is that of [`Self::run`].
     ///
     /// # Errors
     /// As [`Self::run`]; [`ExportError::Gpu`] if nothing replaces a lost device, or if no tile was finished since the
@@ -59,8 +61,10 @@ impl<W: Write> StillJob<W> {
         let mut tiles_at_loss = None;
         loop {
             let result = self.step(clock.elapsed().as_secs_f64());
-            // A lost device causes many different errors.
-            if device.is_lost() {
+            // A lost device causes many different errors. A complete picture needs no device, and a sink's error stays.
+            let needs_device =
+                matches!(result, Ok(StillStatus::Working { .. }) | Err(ExportError::Gpu(_)));
+            if needs_device && device.is_lost() {
                 let tiles = Some(self.finished_tiles());
                 let replacement = if tiles == tiles_at_loss { None } else { device.replace() };
                 let Some(pipelines) = replacement else {

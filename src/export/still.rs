@@ -25,11 +25,11 @@ const MAX_BAND_BYTES: usize = 32 << 20;
 /// Maximum width of a tile whose display has two texels a pixel.
 const MAX_DEEP_TILE_PX: u32 = 2048;
 
-/// Most bytes of a picture, as its file's encoder takes them, that takes the samples of a view: it is one tile.
-const MAX_WHOLE_BYTES: u64 = 160 << 20;
+/// Maximum encoder bytes of a picture that reuses a view's samples. Such a picture is one tile.
+const MAX_REUSED_BYTES: u64 = 128 << 20;
 
-/// Most pixels of such a picture: a second view of as many is made.
-const MAX_WHOLE_PX: u64 = 1 << 22;
+/// Maximum pixels of a picture that reuses a view's samples. A second view of that size is allocated.
+const MAX_REUSED_PX: u64 = 1 << 22;
 
 /// Maximum number of row bytes that one step encodes: a few hundredths of a second of work,
 /// because a page must stay fluid.
@@ -74,6 +74,8 @@ pub struct StillJob<W: Write> {
     overview: Option<Overview>,
     view: SubFrameView,
     tiling: Tiling,
+    /// The tiling of the picture where it is rendered.
+    render_tiling: Tiling,
     /// Index of the tile being rendered; equals the number of tiles after the last one.
     tile_index: u32,
     /// The tile whose readback is in flight.
@@ -123,11 +125,11 @@ impl Subject {
     fn view(&self, pipelines: &Arc<Pipelines>, region: Region) -> SubFrameView {
         let Self { options, file, .. } = self;
         let map = options.environment_map.as_ref();
-        SubFrameView::new(pipelines, region, map, self.drawn(), file.values)
+        SubFrameView::new(pipelines, region, map, self.drawn_sub_frames(), file.values)
     }
 
     /// The sub-frames as the tiles' view draws them.
-    fn drawn(&self) -> SubFrames {
+    fn drawn_sub_frames(&self) -> SubFrames {
         let Self { scene, options, .. } = self;
         let mut drawn = self.sub_frames.clone();
         drawn.change(|drawn| {
@@ -142,13 +144,14 @@ impl Subject {
 
     /// A view with the samples of `other`, if they are those of `region`.
     fn view_of_samples(&self, other: &View, region: Region) -> Option<SubFrameView> {
-        let drawn = self.drawn();
+        let drawn = self.drawn_sub_frames();
         let [scene] = drawn.scenes() else { return None };
         // Samples before a transparent background are others.
         if other.region() != region || self.options.is_transparent {
             return None;
         }
-        let view = other.still_of_samples(scene, self.file.values)?;
+        let map = self.options.environment_map.as_ref();
+        let view = other.still_of_samples(scene, map, self.file.values)?;
         Some(SubFrameView::of_samples(view, drawn))
     }
 }
@@ -253,6 +256,7 @@ impl<W: Write> StillJob<W> {
             overview: subject.overview(pipelines, &sheet),
             view: subject.view(pipelines, tiling.tile(0).rendered),
             tiling,
+            render_tiling: tiling,
             tile_index: 0,
             in_flight: None,
             clamped_light: None,
@@ -269,23 +273,22 @@ impl<W: Write> StillJob<W> {
         })
     }
 
-    /// Takes the samples of `view`, a view on the same device, if they are those of this still: it is then only displayed
-    /// and encoded. Else, and where the picture is too large, the still is rendered.
+    /// Reuses the finished samples of `view` if they are those of this still, which is then only displayed and encoded.
     ///
-    /// Call it before the first step. `view` may change afterwards.
+    /// Otherwise, or if the picture is too large, the still is rendered. Call it before the first step. `view` must be on
+    /// the job's device, and may change afterwards.
     #[must_use]
     pub fn with_samples_of(mut self, view: &View) -> Self {
         let sheet = self.tiling.sheet();
-        let size_px = sheet.size_px();
-        let pixels: u64 = size_px.map(u64::from).iter().product();
+        let [width, height] = sheet.size_px();
+        let pixels = u64::from(width) * u64::from(height);
         let tiling = Tiling::whole(sheet);
-        let tile = tiling.tile(0);
-        let fits = pixels <= MAX_WHOLE_PX
-            && pixels * self.pixel_bytes as u64 <= MAX_WHOLE_BYTES
-            && size_px[0] * self.subject.file.values.texels_per_pixel() <= MAX_REGION_PX;
-        if fits && let Some(view) = self.subject.view_of_samples(view, tile.rendered) {
+        let fits = pixels <= MAX_REUSED_PX
+            && pixels * self.pixel_bytes as u64 <= MAX_REUSED_BYTES
+            && width * self.subject.file.values.texels_per_pixel() <= MAX_REGION_PX;
+        if fits && let Some(view) = self.subject.view_of_samples(view, tiling.tile(0).rendered) {
             self.view = view;
-            self.tiling = tiling;
+            self.render_tiling = std::mem::replace(&mut self.tiling, tiling);
             self.overview = None;
         }
         self
@@ -333,6 +336,10 @@ impl<W: Write> StillJob<W> {
     pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
         self.tile_index = self.finished_tiles();
         self.in_flight = None;
+        // Reused samples were in the old device's memory.
+        if self.tile_index == 0 {
+            self.tiling = self.render_tiling;
+        }
         self.pipelines = pipelines.clone();
         self.faults_before = pipelines.gpu.faults();
         let last = self.tiling.count() - 1;

@@ -226,11 +226,10 @@ impl Schedule {
         reuse
     }
 
-    /// Takes the progress of another schedule of the same picture, and returns what of its pixels is there: the caller
-    /// copies that.
+    /// Copies the progress of another schedule of the same picture. Returns which samples the caller must copy.
     ///
     /// `whole`: all pixels of the region.
-    pub fn take_over(&mut self, other: &Self, whole: Overlap) -> Reuse {
+    pub fn copy_progress(&mut self, other: &Self, whole: Overlap) -> Reuse {
         self.progress.clone_from(&other.progress);
         self.is_converged = other.is_converged;
         self.resize(whole.size_px, Some(whole), 0)

@@ -10,7 +10,7 @@ use eframe::egui_wgpu::RenderState;
 use crate::{
     fractal::SharedModel,
     render::{Activity, Pace, Pipelines, Region, Report, View},
-    scene::{EnvironmentMap, Scene, StereoLayout},
+    scene::{EnvironmentMap, Scene},
     ui,
 };
 
@@ -84,17 +84,15 @@ impl LiveView {
 
     /// The picture on the screen, if a still of `scene` and `size_px` would be the same picture.
     ///
-    /// Stills with a picture for each eye have another layout.
+    /// Stereo pictures have another layout.
     pub fn finished(&self, scene: &Scene, size_px: [u32; 2]) -> Option<&wgpu::Texture> {
         let (view, texture) = (self.view.as_ref()?, self.texture()?);
         let report = view.report();
         let is_finished = report.is_finished()
             && report.samples_done >= report.samples_wanted
             && !view.has_pending_scene();
-        let layout = scene.camera.stereo.layout;
-        let is_one_picture = matches!(layout, StereoLayout::Off | StereoLayout::Anaglyph);
         let is_same_size = [texture.width(), texture.height()] == size_px;
-        (is_finished && is_one_picture && is_same_size).then_some(texture)
+        (is_finished && !scene.camera.stereo.is_on() && is_same_size).then_some(texture)
     }
 
     /// The view's report.

@@ -1,4 +1,8 @@
-//! A view of the samples that another has finished, such as for a file of the picture on the screen.
+//! A still view that reuses the finished samples of another view.
+//!
+//! Such as for a file of the picture on the screen.
+
+use std::sync::Arc;
 
 use super::View;
 use crate::{
@@ -9,46 +13,60 @@ use crate::{
         reuse::{self, Film},
         schedule::{Reuse, Stale},
     },
-    scene::Scene,
+    scene::{EnvironmentMap, Scene},
 };
 
 impl View {
     /// A still of `scene` with the samples of this view, which it only displays.
     ///
     /// None if the samples of `scene` are others, or this view lacks some of them. This view may change afterwards.
-    pub fn still_of_samples(&self, scene: &Scene, display_values: DisplayValues) -> Option<Self> {
-        let report = self.report();
-        // The film can't be reduced to fewer samples.
-        let is_complete = report.samples_wanted == scene.quality.samples
-            && (report.samples_done >= report.samples_wanted
-                || report.converged_fraction == Some(1.0));
+    pub fn still_of_samples(
+        &self,
+        scene: &Scene,
+        environment_map: Option<&Arc<EnvironmentMap>>,
+        display_values: DisplayValues,
+    ) -> Option<Self> {
         let is_whole = self.lent.post.is_none()
             && self.lent.indirect_source.is_none()
             && self.sub_frame.is_none();
-        if !report.is_finished() || !is_complete || !is_whole {
+        if !self.has_all_samples_of(scene) || !is_whole || self.waits_for_colors() {
             return None;
         }
         let mut still = Self::new(&self.pipelines, self.region, Pace::Still);
         still.display_values = display_values;
         still.fit_display();
-        still.environment_map.clone_from(&self.environment_map);
+        still.environment_map = environment_map.cloned();
         still.sky_cache = self.sky_cache.clone();
         still.space.clone_from(&self.space);
         still.is_space_current = self.is_space_current;
         still.colors.lent = self.color_curves();
+        // The lights keep the visibility bits of the samples.
+        still.inputs.clone_from(&self.inputs);
         still.apply(scene.clone());
-        still.takes_samples_of(self).then_some(still)
+        still.copy_samples_of(self).then_some(still)
+    }
+
+    /// Whether the view is finished, with as many samples as `scene` asks for.
+    fn has_all_samples_of(&self, scene: &Scene) -> bool {
+        let (report, Some(own)) = (self.report(), &self.scene) else { return false };
+        // A noise target is of the displayed light.
+        let target = |scene: &Scene| (scene.integrator.noise, scene.tone.exposure);
+        let is_converged = report.converged_fraction == Some(1.0) && target(scene) == target(own);
+        // The film can't be reduced to fewer samples.
+        report.is_finished()
+            && report.samples_wanted == scene.quality.samples
+            && (report.samples_done >= report.samples_wanted || is_converged)
     }
 
     /// Copies the samples of `other`; false if they are not those of this view's picture.
-    fn takes_samples_of(&mut self, other: &Self) -> bool {
+    fn copy_samples_of(&mut self, other: &Self) -> bool {
         let (Some(new), Some(old)) = (&self.inputs, &other.inputs) else { return false };
         if new.stale_since(old).is_some_and(|stale| stale > Stale::Tone) {
             return false;
         }
         let size_px = self.region.film_px();
         let whole = Overlap { first: [0, 0], first_in_old: [0, 0], size_px };
-        if self.schedule.take_over(&other.schedule, whole) != Reuse::Film {
+        if self.schedule.copy_progress(&other.schedule, whole) != Reuse::Film {
             return false;
         }
         let [from, to] =

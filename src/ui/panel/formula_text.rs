@@ -36,7 +36,7 @@ const MIN_WIDTH: f32 = 280.0;
 /// Least height of the text, in points.
 const MIN_TEXT_HEIGHT: f32 = 120.0;
 /// Height of what is below the text before it was drawn, in points.
-const BELOW_TEXT: f32 = 90.0;
+const BELOW_TEXT_HEIGHT: f32 = 90.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
 
@@ -157,7 +157,7 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
 fn contents(ui: &mut Ui, cx: &mut Context<'_>, draft: &mut Draft) {
     // The text has the height that the last frame left: rows for fingers are higher, and the functions may be open.
     let id = ui.scope_id().with("height below the text");
-    let below = ui.data(|data| data.get_temp(id)).unwrap_or(BELOW_TEXT);
+    let below = ui.data(|data| data.get_temp(id)).unwrap_or(BELOW_TEXT_HEIGHT);
     let height = (ui.available_height() - below).max(MIN_TEXT_HEIGHT);
     ScrollArea::vertical().id_salt("text").max_height(height).show(ui, |ui| {
         let id = ui.scope_id().with("editor");

@@ -31,7 +31,7 @@ const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 const LOW_WINDOW: f32 = 480.0;
 
 /// Least width of the progress of an export, in points: its longest time left stands beside its button.
-const LEAST_PROGRESS_PT: f32 = 270.0;
+const MIN_PROGRESS_WIDTH: f32 = 270.0;
 
 /// Width of the reason why a kind of video is missing, in points.
 const REASON_WIDTH: f32 = 190.0;
@@ -332,7 +332,7 @@ impl Strip<'_, '_> {
                 ui.add_enabled(false, Button::new("Saving…"));
                 return;
             }
-            let width = ui.available_width().clamp(LEAST_PROGRESS_PT, 320.0);
+            let width = ui.available_width().clamp(MIN_PROGRESS_WIDTH, 320.0);
             ui.allocate_ui(vec2(width, 40.0), |ui| {
                 ui.vertical(|ui| export::saving(ui, self.cx, progress));
             });
