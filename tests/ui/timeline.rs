@@ -385,7 +385,11 @@ fn the_time_left_stands_whole_beside_cancel() {
         harness.state_mut().export =
             Some(ExportProgress { done: 0.3, remaining_secs: Some(hours) });
         harness.run();
-        harness.run();
+        // In a low window it is at the end of a row that scrolls.
+        let strip = harness.state().interface.rects().get("timeline").expect("the timeline");
+        harness.event(egui::Event::PointerMoved(strip.center_bottom() - vec2(0.0, 20.0)));
+        harness.event(wheel(-2000.0));
+        harness.run_steps(30);
         let times = shapes(&harness).into_iter().filter_map(|shape| match shape {
             Shape::Text(text) if text.galley.text() == "Saving, 123 h 59 min left" => Some(text),
             _ => None,
