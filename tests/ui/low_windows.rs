@@ -11,7 +11,7 @@ use mandelight::{
         path::{Easing, Key},
         presets,
     },
-    ui::Settings,
+    ui::{ExportProgress, Settings},
 };
 
 use crate::stage::*;
@@ -106,6 +106,33 @@ fn a_plain_wheel_moves_the_timeline_s_row() {
     harness.run_steps(30);
     let last = button(&harness, "Save video").rect();
     assert!(last.right() <= strip.right(), "{last:?} in {strip:?}");
+}
+
+#[test]
+fn the_time_left_stands_whole_beside_cancel() {
+    let settings = Settings { panel_open: false, timeline_open: true, ..Settings::default() };
+    for size in [[720.0, 420.0], [844.0, 390.0], [390.0, 844.0]] {
+        let mut harness = without_motion(stage(with_keys(), settings.clone(), size));
+        let hours = 123.0 * 3600.0 + 59.0 * 60.0;
+        harness.state_mut().export =
+            Some(ExportProgress { done: 0.3, remaining_secs: Some(hours) });
+        harness.run();
+        // In a low window it is at the end of a row that scrolls.
+        let strip = rect(&harness, "timeline");
+        harness.event(egui::Event::PointerMoved(strip.center_bottom() - egui::vec2(0.0, 20.0)));
+        harness.event(wheel(-2000.0));
+        harness.run_steps(30);
+        let times = shapes(&harness).into_iter().filter_map(|shape| match shape {
+            egui::Shape::Text(text) if text.galley.text() == "Saving, 123 h 59 min left" => {
+                Some(text)
+            }
+            _ => None,
+        });
+        let [time] = times.collect::<Vec<_>>()[..] else { panic!("no time in {size:?}") };
+        assert!(!time.galley.elided && time.galley.rows.len() == 1, "cut off in {size:?}");
+        let (time, cancel) = (time.visual_bounding_rect(), rect(&harness, "cancel export"));
+        assert!(time.right() < cancel.left(), "{time:?} and {cancel:?} in {size:?}");
+    }
 }
 
 /// Only what contains a control scrolls to it.
