@@ -2,7 +2,7 @@
 //!
 //! While one tile renders, the previous tile's readback is in flight, and the rows of the previous
 //! band are being encoded. So a job's memory is one tile's view, one tile's pixels in flight and
-//! two bands of rows, for pictures of any height.
+//! two bands of rows, for pictures of any height. A picture that reuses a view's samples is one tile.
 
 use std::{io::Write, sync::Arc};
 

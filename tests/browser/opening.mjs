@@ -36,7 +36,12 @@ await visit({ context: SIZE }, async (v) => {
   await linked.firstPicture();
   v.seen.scenes = { linked: await linked.scene() };
 
-  // So has the next visit, which goes on with that scene.
+  // So has the next visit, which goes on with that scene; only a changed scene is stored.
+  await v.tab.evaluate(() => {
+    const document = JSON.parse(window.mandelight.scene());
+    document.scene.quality.samples = 2;
+    window.mandelight.setScene(JSON.stringify(document));
+  });
   await v.until("the scene to be stored", () => v.tab.evaluate(() => localStorage.getItem("mandelight.scene")));
   await v.tab.goto("about:blank");
   const releaseAgain = await holdModule(v);

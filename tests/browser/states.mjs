@@ -146,7 +146,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.says("Saving was cancelled.");
     await page.rested("the notice", () => page.rect("notice"));
     await shoot("notice");
-    await button("Dismiss").evaluate((it) => it.click());
+    await v.until("the notice to go", async () => !(await page.rect("notice")), 60);
     await sampled(1);
   };
   const opening = () => shootSettled("opening");

@@ -30,8 +30,8 @@ const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 /// Height of a window, in points, below which a narrow strip has one row of buttons, which scrolls.
 const LOW_WINDOW: f32 = 480.0;
 
-/// Least width of the progress of an export, in points: its longest time left stands beside its button.
-const MIN_PROGRESS_WIDTH: f32 = 270.0;
+/// Width of the progress of an export in a row that scrolls, in points: its longest time left stands beside its button.
+const SCROLLED_PROGRESS_WIDTH: f32 = 270.0;
 
 /// Width of the reason why a kind of video is missing, in points.
 const REASON_WIDTH: f32 = 190.0;
@@ -54,7 +54,8 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     let on_path = timeline.was_on_path();
     let one_row_from = if theme::has_touch_rows(ui) { ONE_TOUCH_ROW_FROM } else { ONE_ROW_FROM };
     let wide = ui.available_width() >= one_row_from;
-    let mut strip = Strip { cx, path, timeline, on_path };
+    let is_scrolled = !wide && ui.ctx().content_rect().height() < LOW_WINDOW;
+    let mut strip = Strip { cx, path, timeline, on_path, is_scrolled };
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.horizontal(|ui| {
         strip.transport(ui);
@@ -72,7 +73,7 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     strip.cx.rects.record("timeline track", &response);
     if wide {
         ui.horizontal(|ui| strip.key_and_saving(ui));
-    } else if ui.ctx().content_rect().height() < LOW_WINDOW {
+    } else if is_scrolled {
         ui.scope(|ui| {
             // Nothing else is here that a plain wheel could scroll.
             ui.style_mut().always_scroll_the_only_direction = true;
@@ -105,6 +106,8 @@ struct Strip<'a, 'b> {
     path: &'a mut Path,
     timeline: &'a mut Timeline,
     on_path: bool,
+    /// Whether the buttons are in one row that scrolls.
+    is_scrolled: bool,
 }
 
 impl Strip<'_, '_> {
@@ -332,7 +335,9 @@ impl Strip<'_, '_> {
                 ui.add_enabled(false, Button::new("Saving…"));
                 return;
             }
-            let width = ui.available_width().clamp(MIN_PROGRESS_WIDTH, 320.0);
+            // A row that scrolls has room for all of it.
+            let least = if self.is_scrolled { SCROLLED_PROGRESS_WIDTH } else { 120.0 };
+            let width = ui.available_width().clamp(least, 320.0);
             ui.allocate_ui(vec2(width, 40.0), |ui| {
                 ui.vertical(|ui| export::saving(ui, self.cx, progress));
             });
