@@ -166,7 +166,7 @@ struct Failing {
 
 impl Failing {
     fn new(lifetimes: &[u32]) -> Self {
-        let mut lifetimes = lifetimes.to_vec().into_iter();
+        let mut lifetimes = Vec::from(lifetimes).into_iter();
         let steps_left = Cell::new(lifetimes.next().expect("a device"));
         Self { lifetimes, steps_left, pipelines: fresh_pipelines() }
     }
