@@ -182,7 +182,7 @@ fn samples_of_another_picture_are_not_taken() {
     assert!(files[0] == files[1], "another picture of another size");
 }
 
-/// A target of noise is a number of samples, and exposure decides how much noise is seen.
+/// More noise needs fewer samples, and exposure decides how much of it is seen.
 #[test]
 fn samples_for_another_noise_are_not_taken() {
     let scene = traced(false, 0.5);
