@@ -17,7 +17,7 @@ use super::{
         guide::{Guide, GuideStatus},
     },
     shortcuts::{Command, HeldKeys},
-    slice::{self, Clock},
+    slice::{Clock, Slice},
 };
 use crate::{
     formula::DistanceField,
@@ -299,7 +299,8 @@ impl Pilot {
     /// Runs searches and plans of the guide for a slice of the frame.
     fn guide_work(&mut self, ctx: &Context, camera: &Camera, world: World<'_>) {
         let mut now_ms = self.clock.0;
-        if slice::run(&mut now_ms, || self.guide.work(camera, world)) {
+        let mut slice = Slice::of(ctx.input(|i| i.stable_dt), &mut now_ms);
+        if slice.run(|| self.guide.work(camera, world)) {
             ctx.request_repaint();
         }
     }

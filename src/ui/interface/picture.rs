@@ -15,6 +15,7 @@ use crate::ui::{
     light_click, panel,
     places::{self, PinInputs},
     shortcuts::{self, Command},
+    slice::Slice,
     theme, view,
     widgets::Help as _,
 };
@@ -129,7 +130,8 @@ impl Interface {
             || self.pilot.speed() > 0.0;
         let model = self.pilot.models().of(&scene.fractal);
         let mut now_ms = self.clock.0;
-        self.places.advance(scene, &model, frame, is_moving, &mut now_ms);
+        let mut slice = Slice::of(ui.input(|i| i.stable_dt), &mut now_ms);
+        self.places.advance(scene, &model, frame, is_moving, &mut slice);
         self.places.request_repaint(ui);
         let mut toggle = Rect::NOTHING;
         if wide && !self.settings.panel_open {

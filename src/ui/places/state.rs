@@ -12,7 +12,7 @@ use super::{
 use crate::{
     fractal::FractalModel,
     scene::{Camera, Scene},
-    ui::{frame::Frame, handles, small_picture::SmallPicture},
+    ui::{frame::Frame, handles, slice::Slice, small_picture::SmallPicture},
 };
 
 /// Most pins.
@@ -103,15 +103,14 @@ impl Places {
 
     /// Continues the search for a slice of a frame, if the camera stands still.
     ///
-    /// `is_moving` announces changes of the camera; `now_ms` is any steady clock. A new view or another fractal
-    /// cancels the search.
+    /// `is_moving` announces changes of the camera. A new view or another fractal cancels the search.
     pub fn advance(
         &mut self,
         scene: &Scene,
         model: &FractalModel,
         frame: Frame,
         is_moving: bool,
-        now_ms: &mut dyn FnMut() -> f64,
+        slice: &mut Slice<'_>,
     ) {
         if !self.are_shown() {
             self.last_camera = None;
@@ -133,7 +132,7 @@ impl Places {
         if let Some(search) = &mut self.search {
             search.redraw(scene);
             if !search.is_over() {
-                search.run(now_ms);
+                search.run(slice);
             }
         }
     }

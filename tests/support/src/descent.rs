@@ -18,7 +18,7 @@ use mandelight::{
 pub const VIEWPORT: Viewport = Viewport { aspect: 1.5, height_px: 600.0, detail: 1.0 };
 /// Zoom of one notch, as a natural logarithm.
 pub const NOTCH: f64 = 0.2;
-/// Steps of searches and plans between two notches: about ten frames of two milliseconds.
+/// Steps of searches and plans between two notches: ten frames at 60 a second, or a slow frame.
 const STEPS_PER_NOTCH: u32 = 300;
 /// Zoom after which the plain zoom's anchor is sought again.
 const ANCHOR_AGAIN: f64 = 0.2;
