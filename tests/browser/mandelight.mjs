@@ -78,6 +78,15 @@ export class Mandelight {
     );
   }
 
+  /** Waits until the picture has a sample for two pixels, or is complete. */
+  nearlySharp() {
+    const isThere = async () => {
+      const { idle, pixelsPerSample } = await this.report();
+      return idle || pixelsPerSample <= 2;
+    };
+    return this.visit.until("the picture to be nearly sharp", isThere, PICTURE_LIMIT_SECS);
+  }
+
   /** Runs `change` and waits for the complete picture after it. */
   async redrawn(change) {
     const { pictures } = await this.report();
@@ -123,11 +132,12 @@ export class Mandelight {
     return this.visit.until(`the text ${text}`, () => this.isSaid(text), 60);
   }
 
-  /** Waits until the small pictures that the interface shows are there. */
-  smallPictures() {
-    return this.visit.until("the small pictures", async () => {
+  /** Waits until `count` of the small pictures that the interface shows are there, or all. */
+  smallPictures(count) {
+    return this.visit.until("small pictures", async () => {
       const { smallPictures, smallPicturesLeft } = await this.report();
-      return smallPictures > 0 && !smallPicturesLeft && !(await this.isSaid("Looking for places"));
+      const areAll = smallPictures > 0 && !smallPicturesLeft && !(await this.isSaid("Looking for places"));
+      return smallPictures >= count || areAll;
     }, PICTURE_LIMIT_SECS);
   }
 

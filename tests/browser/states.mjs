@@ -9,14 +9,17 @@ const DEVICES = [
   { sizes: [[390, 844], [844, 390]], context: { hasTouch: true, isMobile: true, deviceScaleFactor: 1 } },
 ];
 
+/** Small pictures that a state waits for: a software GPU takes minutes for those of all variations. */
+const SMALL_PICTURES = 2;
+
 /**
- * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too, and
- * whether it shows small pictures of its own.
+ * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too,
+ * whether it shows small pictures of its own, and a box that is ticked first.
  */
 const STATES = [
   { name: "timeline", key: "t", rect: "timeline", isToggle: true },
   { name: "share", key: "j", rect: "share window" },
-  { name: "mutate", key: "m", rect: "variations", hasPictures: true },
+  { name: "mutate", key: "m", rect: "variations", hasPictures: true, ticked: "Keep: Shape" },
   { name: "find", key: "Control+k", rect: "find window", words: "light" },
   { name: "help", key: "Shift+?", rect: "help window" },
   { name: "compare", key: "Shift+C", rect: "compare" },
@@ -47,8 +50,9 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     const rects = await v.tab.evaluate(() => window.mandelight.uiRects());
     v.seen.states.push({ name, state, size: [width, height], rects });
   };
-  const shootSettled = async (state) => {
-    await page.settled();
+  /** Keeps a picture of a state once the view is nearly sharp: a whole sample takes twice as long, in each state. */
+  const shootSharp = async (state) => {
+    await v.timed(`${state} ${width}x${height}, sharp`, () => page.nearlySharp());
     await shoot(state);
   };
   /** Whether the interface has the window's size: a panel at the side is beside the status line. */
@@ -96,9 +100,8 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
 
   const lights = async () => {
     await page.click("All lights");
-    await page.settled();
     await page.scrollTo("All lights");
-    await shootSettled("lights");
+    await shootSharp("lights");
     await page.click("All lights");
   };
   const mine = async () => {
@@ -113,7 +116,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.click("keep view");
     await v.until("the view to be kept", async () => (await kept()) !== before);
     await scrollToTop();
-    await shootSettled("mine");
+    await shootSharp("mine");
     await button("Scenes").evaluate((it) => it.click());
   };
   const look = async () => {
@@ -126,14 +129,16 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     if (hasTouch) {
       // Fingers hover nowhere: a tap shows the look, and keeps it.
       await page.changed("a tap on a swatch", () => v.tab.touchscreen.tap(x, y));
-      await shootSettled("look");
+      await shootSharp("look");
       await page.changed("undoing the look", () => v.tab.keyboard.press("Control+z"));
       return;
     }
+    const { pictures } = await page.report();
     await v.tab.mouse.move(x, y - 9);
     await v.tab.mouse.move(x, y);
     await page.rested("the preview", () => page.rect("look preview"));
-    await shootSettled("look");
+    await v.until("the look's picture", async () => (await page.report()).pictures > pictures);
+    await shootSharp("look");
     await v.tab.mouse.move(...(await page.middle("view")));
   };
   const saving = async () => {
@@ -149,11 +154,11 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await v.until("the notice to go", async () => !(await page.rect("notice")), 60);
     await sampled(1);
   };
-  const opening = () => shootSettled("opening");
+  const opening = () => shootSharp("opening");
   const ofThePanel = async () => {
     await openPanel();
     await page.click("more");
-    await shootSettled("panel");
+    await shootSharp("panel");
     await lights();
     await page.click("more");
     await mine();
@@ -162,13 +167,22 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await closePanel();
   };
 
+  const tick = async (name) => {
+    const box = v.tab.getByRole("checkbox", { name, exact: true });
+    if (await box.isChecked()) return;
+    await box.evaluate((it) => it.click());
+    await v.until(`${name} to be ticked`, () => box.isChecked(), 60);
+  };
+
+  // Other shapes have other kernels, which software GPUs compile for long: variations keep the shape.
   const ofKeys = async () => {
-    for (const { name, key, rect, words, isToggle, hasPictures } of STATES) {
+    for (const { name, key, rect, words, isToggle, hasPictures, ticked } of STATES) {
       await v.tab.keyboard.press(key);
       await page.rested(name, () => page.rect(rect));
+      if (ticked) await tick(ticked);
       if (words) await v.tab.keyboard.type(words);
-      if (hasPictures) await page.smallPictures();
-      await shootSettled(name);
+      if (hasPictures) await page.smallPictures(SMALL_PICTURES);
+      await shootSharp(name);
       await v.tab.keyboard.press(isToggle ? key : "Escape");
       await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
     }
@@ -180,7 +194,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.click("Fractal");
     await button("Edit the formula…").evaluate((it) => it.click());
     await page.rested("the editor", () => page.rect("formula text"));
-    await shootSettled("formula");
+    await shootSharp("formula");
     await v.tab.keyboard.press("Escape");
     await v.until("the editor to be gone", async () => !(await page.rect("formula text")), 60);
     await page.click("Fractal");
@@ -203,7 +217,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   const ofTheGallery = async () => {
     await openPanel();
     await page.rested("a card", () => page.rect("gallery 0"));
-    await shootSettled("gallery");
+    await shootSharp("gallery");
     await closePanel();
   };
 
@@ -213,7 +227,8 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   await inEachWindow(ofThePanel);
   await inEachWindow(ofKeys);
   // The opening scene's formula has no text.
-  await page.show(process.env.MANDELIGHT_FORMULA);
+  await page.changed("the scene of a formula", () =>
+    v.tab.evaluate((json) => window.mandelight.setScene(json), process.env.MANDELIGHT_FORMULA));
   await inEachWindow(ofTheFormula);
   await inEachWindow(ofTheDocument);
 

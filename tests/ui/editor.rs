@@ -1,6 +1,6 @@
 //! The formula editor: what is typed is drawn, what is wrong is told, what is kept stays.
 
-use egui::{Key, Modifiers, accesskit::Role};
+use egui::{Key, Modifiers, Pos2, Rect, accesskit::Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     formula::{self, Fractal},
@@ -228,4 +228,26 @@ fn the_text_has_the_room_that_a_low_window_leaves() {
     let window = harness.state().interface.rects().get("formula window").expect("the window");
     let empty = window.bottom() - functions.bottom();
     assert!((0.0..40.0).contains(&empty), "{functions:?} in {window:?}");
+}
+
+/// A turned phone shows the whole editor in its other shape, and the first shape after it is turned back.
+#[test]
+fn the_window_of_a_turned_phone_is_as_wide_as_its_side() {
+    let [upright, lying] = [[390.0, 844.0], [844.0, 390.0]];
+    let mut harness = without_motion(editing_in("quaternion_julia", upright));
+    touch(&mut harness);
+    let mut shapes = Vec::new();
+    for size in [upright, lying, upright] {
+        harness.set_size(size.into());
+        harness.run();
+        let rect = |name: &str| harness.state().interface.rects().get(name).expect("a part");
+        let window = rect("formula window");
+        assert!(Rect::from_min_size(Pos2::ZERO, size.into()).contains_rect(window), "{window:?}");
+        // In the upright shape, the sheet below the status line makes room for the window.
+        let status = rect("status");
+        assert!(size == upright || window.bottom() <= status.top(), "{window:?}, {status:?}");
+        shapes.push(window.size());
+    }
+    assert!(shapes[1].x > upright[0], "{shapes:?}");
+    assert_eq!(shapes[0], shapes[2]);
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Button, FontId, Galley, Id, Key, Label, Modifiers, RichText, ScrollArea, Stroke,
+    Align2, Button, FontId, Galley, Id, Key, Label, Modifiers, Rect, RichText, ScrollArea, Stroke,
     TextBuffer, TextEdit, TextFormat, Ui,
     text::{CCursor, CCursorRange, LayoutJob},
     vec2,
@@ -39,6 +39,8 @@ const MIN_TEXT_HEIGHT: f32 = 120.0;
 const BELOW_TEXT_HEIGHT: f32 = 90.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
+/// Height below the editor that stays free, for the status line, in points.
+const ABOVE_STATUS: f32 = 40.0;
 
 /// The editor's state between frames.
 #[derive(Clone, Debug, Default)]
@@ -128,14 +130,20 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     }
     let screen = ctx.content_rect();
     let size = vec2(WINDOW[0].min(screen.width() - 24.0), WINDOW[1].min(0.72 * screen.height()));
+    // Above the status line.
+    let room = Rect::from_min_max(screen.min, screen.max - vec2(0.0, ABOVE_STATUS));
     let mut is_open = true;
+    // A phone that is turned gets a window of the other shape, and the first one back.
+    let id = Id::unique(("formula window", screen.width() > screen.height()));
     let shown = egui::Window::new("Formula")
+        .id(id)
         .title_bar(false)
+        .constrain_to(room)
         .pivot(Align2::LEFT_BOTTOM)
-        .default_pos(screen.left_bottom() + vec2(12.0, -40.0))
+        .default_pos(room.left_bottom() + vec2(12.0, 0.0))
         .default_size(size)
         .min_width(MIN_WIDTH.min(size.x))
-        .max_size(vec2(screen.width() - 24.0, screen.height() - 80.0))
+        .max_size(vec2(screen.width() - 24.0, room.height() - ABOVE_STATUS))
         .show(ctx, |ui| {
             is_open = !window_heading(ui, "Formula");
             // What the window is too low for scrolls: it would otherwise grow out of the screen.
