@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use egui::{Button, Label, RichText, Ui};
+use egui::{Button, Label, Response, RichText, Ui};
 
 use super::{
-    floating::{CAPTION_GAP, CaptionArea, framed},
+    floating::{CaptionArea, framed},
     navigation::guide::GuideStatus,
     rects::Rects,
     shortcuts::Command,
@@ -34,7 +34,7 @@ pub fn keys(record: &[(f64, Camera)], scene: &Scene) -> Vec<Key> {
     keys
 }
 
-/// Shows the dive's status at the lower edge of the picture, and afterwards the offer to keep it.
+/// Shows the dive's status at the lower edge of the picture, and afterwards the offer to keep it; returns what is shown.
 pub fn show(
     ui: &Ui,
     area: CaptionArea,
@@ -42,7 +42,7 @@ pub fn show(
     has_record: bool,
     rects: &mut Rects,
     commands: &mut Vec<Command>,
-) {
+) -> Option<Response> {
     let text = match status {
         GuideStatus::Searching => "Looking for a place to dive to…",
         GuideStatus::Diving => "Diving. Touch the picture to stop.",
@@ -52,9 +52,9 @@ pub fn show(
     };
     let is_over = matches!(status, GuideStatus::Idle | GuideStatus::AtEnd);
     if text.is_empty() && !has_record {
-        return;
+        return None;
     }
-    let shown = framed(ui, area.low("dive status", CAPTION_GAP), area.width(), |ui| {
+    let shown = framed(ui, area.lowest(ui, "dive status"), area.width(), |ui| {
         ui.horizontal_wrapped(|ui| {
             if !text.is_empty() {
                 ui.add(Label::new(RichText::new(text)).selectable(false).wrap());
@@ -70,4 +70,5 @@ pub fn show(
         });
     });
     rects.record("dive status", &shown.response);
+    Some(shown.response)
 }

@@ -35,13 +35,21 @@ const WIDE_FROM: f32 = 800.0;
 pub struct CaptionArea {
     view: Rect,
     beside: Rect,
+    /// Height at the lower edge that another caption takes, in points.
+    taken: f32,
 }
 
 impl CaptionArea {
     /// The area for captions of the picture in `view`, whose row of buttons is in `buttons`.
     pub fn new(view: Rect, buttons: Rect) -> Self {
         let left = if view.width() < WIDE_FROM { view.left() } else { buttons.right() };
-        Self { view, beside: Rect::from_min_max(Pos2::new(left, view.top()), view.max) }
+        let beside = Rect::from_min_max(Pos2::new(left, view.top()), view.max);
+        Self { view, beside, taken: 0.0 }
+    }
+
+    /// The area above a caption that is shown at the lower edge.
+    pub fn above(self, shown: &Response) -> Self {
+        Self { taken: self.view.bottom() - shown.rect.top(), ..self }
     }
 
     /// Width of the part beside the buttons, in points.
@@ -49,29 +57,24 @@ impl CaptionArea {
         self.beside.width()
     }
 
-    /// An area at the lower edge of the picture, `above` points over it, where no button is.
-    pub fn low(self, id: &str, above: f32) -> egui::Area {
-        let at = self.view.center_bottom() - vec2(0.0, above);
-        let area = egui::Area::new(egui::Id::unique(id)).fixed_pos(at);
-        area.pivot(Align2::CENTER_BOTTOM).constrain_to(self.beside)
-    }
-
-    /// The area of captions at the lower edge.
-    fn caption(self, ui: &Ui) -> egui::Area {
+    /// The area of a caption at the lower edge of the picture, where neither a button nor another caption is.
+    pub fn lowest(self, ui: &Ui, id: &str) -> egui::Area {
         // In a narrow picture the buttons of the lower left corner would lie under the text.
         let is_narrow = self.view.width() < WIDE_FROM;
-        let above = if is_narrow {
+        let edge = if is_narrow {
             row_height(has_words(ui, self.view), ui) + 2.0 * GAP
         } else {
             CAPTION_GAP
         };
-        self.low(CAPTION, above)
+        let at = self.view.center_bottom() - vec2(0.0, edge.max(self.taken + 0.5 * GAP));
+        let area = egui::Area::new(egui::Id::unique(id)).fixed_pos(at);
+        area.pivot(Align2::CENTER_BOTTOM).constrain_to(self.beside)
     }
 
     /// The area of captions that leave the middle free: in a low picture it is at the upper edge.
     fn clear_caption(self, ui: &Ui) -> egui::Area {
         if self.view.height() >= LOW_PICTURE {
-            return self.caption(ui);
+            return self.lowest(ui, CAPTION);
         }
         let at = self.view.center_top() + vec2(0.0, 0.5 * GAP);
         let area = egui::Area::new(egui::Id::unique(CAPTION)).fixed_pos(at);
@@ -81,12 +84,12 @@ impl CaptionArea {
 
 /// Height of a picture, in points, below which a caption above the row of buttons would cover the set.
 pub const LOW_PICTURE: f32 = 420.0;
-/// Distance of captions and of messages from the lower edge of a wide picture, in points.
-pub const CAPTION_GAP: f32 = 14.0;
+/// Distance of captions from the lower edge of a wide picture, in points.
+const CAPTION_GAP: f32 = 14.0;
 
 /// A line of text at the lower edge of the picture, which does not take the pointer.
 pub fn caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
-    let shown = area.caption(ui).interactable(false);
+    let shown = area.lowest(ui, CAPTION).interactable(false);
     framed(ui, shown, area.width(), |ui| line(ui, text)).response
 }
 

@@ -14,7 +14,8 @@ const SMALL_PICTURES = 2;
 
 /**
  * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too,
- * whether it shows small pictures of its own, and a box that is ticked first.
+ * whether it shows small pictures of its own, and a box that is ticked first. (Variations keep the shape: software GPUs
+ * compile the kernels of others for long.)
  */
 const STATES = [
   { name: "timeline", key: "t", rect: "timeline", isToggle: true },
@@ -174,7 +175,6 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await v.until(`${name} to be ticked`, () => box.isChecked(), 60);
   };
 
-  // Other shapes have other kernels, which software GPUs compile for long: variations keep the shape.
   const ofKeys = async () => {
     for (const { name, key, rect, words, isToggle, hasPictures, ticked } of STATES) {
       await v.tab.keyboard.press(key);

@@ -344,3 +344,37 @@ fn a_view_without_places_says_so() {
     press(&mut harness, "Hide places");
     assert_eq!(words(&harness), "");
 }
+
+/// Captions, the row of buttons and the search's words each have a place of their own, and hints wait.
+#[test]
+fn the_words_of_a_dive_and_of_pins_cover_nothing() {
+    for size in [WIDE, PHONE] {
+        let mut harness = opening(size);
+        let rect =
+            |harness: &Harness<'_, Stage>, name: &str| harness.state().interface.rects().get(name);
+        let shown = |harness: &Harness<'_, Stage>, name: &str| {
+            rect(harness, name).unwrap_or_else(|| panic!("{name} is shown in {size:?}"))
+        };
+        assert!(rect(&harness, "hint").is_some());
+        harness.key_press(Key::D);
+        harness.run_steps(200);
+        let [status, button] = ["dive status", "dive"].map(|name| shown(&harness, name));
+        assert!(!status.intersects(button), "{status:?} covers {button:?}");
+        assert_eq!(rect(&harness, "hint"), None, "in {size:?}");
+
+        // What is left of the dive is the offer to keep it.
+        harness.key_press(Key::D);
+        harness.run_steps(4);
+        harness.key_press(Key::N);
+        harness.run_steps(4);
+        harness.key_down(Key::C);
+        harness.run_steps(4);
+        let names = ["dive", "keep dive", "places words", "comparing"];
+        let rects = names.map(|name| shown(&harness, name));
+        for (index, a) in rects.iter().enumerate() {
+            for (other, b) in rects.iter().enumerate().skip(index + 1) {
+                assert!(!a.intersects(*b), "{} and {}: {a:?}, {b:?}", names[index], names[other]);
+            }
+        }
+    }
+}

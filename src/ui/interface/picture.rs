@@ -12,7 +12,9 @@ use crate::ui::{
     handles,
     home::HomeTarget,
     icon::Icon,
-    light_click, panel,
+    light_click,
+    navigation::guide::GuideStatus,
+    panel,
     places::{self, PinInputs},
     shortcuts::{self, Command},
     slice::Slice,
@@ -69,7 +71,9 @@ impl Interface {
         }
         let has_record = self.pilot.dive_record().len() > 1;
         let captions = CaptionArea::new(rect, buttons.area(rect));
-        dive::show(ui, captions, self.pilot.guide_status(), has_record, &mut self.rects, commands);
+        let status = self.pilot.guide_status();
+        let of_dive = dive::show(ui, captions, status, has_record, &mut self.rects, commands);
+        let captions = of_dive.map_or(captions, |shown| captions.above(&shown));
         if is_comparing {
             let caption = floating::caption(ui, captions, "Before the last change");
             self.rects.record("comparing", &caption);
@@ -174,12 +178,17 @@ impl Interface {
         ui.allocate_rect(area, egui::Sense::hover());
     }
 
-    /// True if a window or a message may lie where a hint would be.
+    /// True if a window, a message or another caption may lie where a hint would be.
     fn is_covered(&self, ctx: &egui::Context, inputs: &DisplayInputs<'_>) -> bool {
         let has_message = inputs.notice.is_some() || inputs.reading.is_some();
         let is_over_picture = self.mutate.is_open() || self.share.is_open() || self.compare.is_on();
         let is_over_window = self.help_open || self.finder.is_open();
-        has_message || is_over_picture || is_over_window || panel::is_formula_window_open(ctx)
+        let has_caption = self.places.are_shown() || self.pilot.guide_status() != GuideStatus::Idle;
+        has_message
+            || is_over_picture
+            || is_over_window
+            || has_caption
+            || panel::is_formula_window_open(ctx)
     }
 
     /// The buttons in the picture's lower left corner; none over the variations.

@@ -39,8 +39,8 @@ const MIN_TEXT_HEIGHT: f32 = 120.0;
 const BELOW_TEXT_HEIGHT: f32 = 90.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
-/// Height below the editor that stays free, for the status line, in points.
-const ABOVE_STATUS: f32 = 40.0;
+/// Height below the editor that stays free, for the status line alone: tools would look out from behind it.
+const ABOVE_STATUS: f32 = 28.0;
 
 /// The editor's state between frames.
 #[derive(Clone, Debug, Default)]

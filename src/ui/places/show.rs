@@ -30,6 +30,9 @@ const POINT: f32 = 4.0;
 /// Widest text about the search, in points.
 const MAX_TEXT_WIDTH: f32 = 340.0;
 
+/// Names of the captions that may be where the text is, the lowest first.
+const CAPTIONS: [&str; 5] = ["dive status", "comparing", "look preview", "light click", "fly keys"];
+
 /// What pins are drawn over.
 #[derive(Clone, Copy)]
 pub struct PinInputs<'a> {
@@ -124,10 +127,16 @@ fn words(ui: &Ui, inputs: &PinInputs<'_>, progress: Progress, rects: &mut Rects)
     let size = galley.size() + vec2(20.0, 12.0);
     let [buttons, _] = inputs.buttons;
     let at = pos2(picture.left() + GAP, buttons.top() - size.y);
-    let rect = Rect::from_min_size(at, size);
+    let mut rect = Rect::from_min_size(at, size);
+    // In a narrow picture captions are above the buttons, too.
+    for caption in CAPTIONS.iter().filter_map(|name| rects.get(name)) {
+        if caption.intersects(rect) {
+            rect = rect.translate(vec2(0.0, caption.top() - 0.5 * GAP - rect.bottom()));
+        }
+    }
     let painter = ui.painter().with_clip_rect(picture);
     painter.rect_filled(rect, theme::RADIUS, theme::PANEL.gamma_multiply(0.85));
-    painter.galley(at + vec2(10.0, 6.0), galley, theme::TEXT);
+    painter.galley(rect.min + vec2(10.0, 6.0), galley, theme::TEXT);
     let response = ui.interact(rect, ui.scope_id().with("places words"), Sense::hover());
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(Role::Status);
