@@ -34,7 +34,9 @@ pub fn keys(record: &[(f64, Camera)], scene: &Scene) -> Vec<Key> {
     keys
 }
 
-/// Shows the dive's status at the lower edge of the picture, and afterwards the offer to keep it; returns what is shown.
+/// Shows the dive's status at the lower edge of the picture, and afterwards the offer to keep it.
+///
+/// Returns its response; none if nothing is shown.
 pub fn show(
     ui: &Ui,
     area: CaptionArea,

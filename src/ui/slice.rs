@@ -37,7 +37,7 @@ impl<'a> Slice<'a> {
     /// A slice of a frame that takes `frame_secs`; `now_ms` is any steady clock.
     pub fn of(frame_secs: f32, now_ms: &'a mut dyn FnMut() -> f64) -> Self {
         let length_ms = FRAME_PART * 1e3 * f64::from(frame_secs);
-        // No number is no length.
+        // Unlike `clamp`, this takes the shortest length for a frame time that is NaN.
         let length_ms = length_ms.max(*SLICE_MS.start()).min(*SLICE_MS.end());
         Self { now_ms, length_ms }
     }

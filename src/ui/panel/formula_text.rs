@@ -39,7 +39,8 @@ const MIN_TEXT_HEIGHT: f32 = 120.0;
 const BELOW_TEXT_HEIGHT: f32 = 90.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
-/// Height below the editor that stays free, for the status line alone: tools would look out from behind it.
+/// Height below the editor that stays free, in points: that of the status line, so that the editor covers the tools above
+/// that line whole. As much stays free above an editor of the greatest height.
 const ABOVE_STATUS: f32 = 28.0;
 
 /// The editor's state between frames.
