@@ -38,7 +38,7 @@ await visit({ context: { viewport: { width: 560, height: 300 }, deviceScaleFacto
 
   await v.tab.mouse.click(view.x + view.width / 2, view.y + view.height / 2);
   await v.tab.keyboard.press("h");
-  await v.until("the flight home", async () => (await page.report()).zoom < 1.5, 120);
+  await v.until("the flight home", async () => (await page.report()).zoom < 1.5);
   scenes.home = await page.rested("the scene at home", () => page.scene());
 
   await page.open(process.env.MANDELIGHT_LINK);

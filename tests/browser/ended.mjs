@@ -10,13 +10,13 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const stored = (key) => v.tab.evaluate((name) => localStorage.getItem(name) ?? "", key);
   /** How many scenes are on their way to a picture, or were when their visit ended. */
   const marks = async () => JSON.parse((await stored("mandelight.unfinished")) || "[]").length;
-  const marked = (count) => v.until(`${count} marks`, async () => (await marks()) === count, 120);
+  const marked = (count) => v.until(`${count} marks`, async () => (await marks()) === count);
   await page.open();
   const quick = JSON.parse(await page.scene());
   quick.scene.quality.samples = 1;
   quick.scene.fractal.power = 5;
   await page.show(JSON.stringify(quick));
-  await v.until("the scene to be stored", async () => (await stored("mandelight.scene")).includes('"power":5'), 60);
+  await v.until("the scene to be stored", async () => (await stored("mandelight.scene")).includes('"power":5'));
   await marked(0);
   scenes.shown = await page.scene();
 
@@ -59,7 +59,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const browser = await v.context.newCDPSession(hung.tab);
   await hung.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_LINK}`, { waitUntil: "commit" });
   await marked(1);
-  const crashed = hung.tab.waitForEvent("crash", { timeout: 60_000 });
+  const crashed = hung.tab.waitForEvent("crash");
   browser.send("Page.crash").catch(() => {});
   await crashed;
   await page.open(process.env.MANDELIGHT_LINK);

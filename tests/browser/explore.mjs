@@ -46,7 +46,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   await v.screenshot("panel-720x420");
   const toggle = async () => v.tab.mouse.click(...(await page.middle("panel toggle")));
   await toggle();
-  await v.until("the picture to have the window", async () => (await page.rect("view")).width > beside.width, 60);
+  await v.until("the picture to have the window", async () => (await page.rect("view")).width > beside.width);
   await v.screenshot("no-panel-720x420");
   v.seen.views = [beside, await page.rect("view")];
   await page.settled();
@@ -95,7 +95,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   v.seen.shared = await v.until("the share sheet", () => v.tab.evaluate(async () => {
     const [file] = window.shared?.files ?? [];
     return file && { name: file.name, type: file.type, bytes: Array.from(new Uint8Array(await file.arrayBuffer())) };
-  }), 60);
+  }));
   await writeFile(join(v.out, "shared.png"), Buffer.from(v.seen.shared.bytes));
   delete v.seen.shared.bytes;
   await share("Copy picture");
@@ -120,7 +120,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   await v.tab.mouse.move(panel.x + panel.width / 2, panel.y + panel.height / 2);
   await v.tab.mouse.wheel(0, -20000);
   await v.tab.mouse.click(...(await page.middle("Mine")));
-  await v.until("the list of kept views", () => page.rect("keep view"), 60);
+  await v.until("the list of kept views", () => page.rect("keep view"));
   await v.tab.mouse.click(...(await page.middle("keep view")));
   v.seen.kept = await v.until("the view to be kept", () => v.tab.evaluate(() => {
     const [kept] = JSON.parse(localStorage.getItem("mandelight.favourites") ?? "[]");

@@ -90,6 +90,6 @@ await visit({ context: { viewport: { width: 640, height: 420 } } }, async (v) =>
   await drop(hdr, "newer.hdr");
   v.seen.newest = (await loaded("newer.hdr")).name;
   // The browser tells of a worker's end some time later.
-  await v.until("the last worker to end", () => v.tab.workers().length === 0, 60);
+  await v.until("the last worker to end", () => v.tab.workers().length === 0);
   v.seen.workers = v.tab.workers().length;
 });

@@ -18,7 +18,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const choose = async (name) => {
     const button = v.tab.getByRole("button", { name, exact: true });
     await button.evaluate((it) => it.click());
-    await v.until(name, async () => (await button.getAttribute("aria-pressed")) === "true", 30);
+    await v.until(name, async () => (await button.getAttribute("aria-pressed")) === "true");
   };
   v.seen.names = {};
   const save = async (file) => (v.seen.names[file] = await page.keepDownload(file, "save picture"));

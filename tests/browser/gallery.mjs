@@ -25,7 +25,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     const colors = await Promise.all(v.seen.cards.map(({ x, y, width, height }) =>
       v.tab.screenshot({ clip: { ...bounds, x: x + width / 2, y: y + height / 3 } })));
     return !colors[0].equals(colors[1]);
-  }, 60);
+  });
   await v.screenshot("gallery-720x420");
 
   v.seen.scenes = {};
@@ -34,7 +34,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.missing = await page.says("missing could not be opened: its host answers 404");
 
   v.seen.huge = await v.until("the refusal of a picture", async () =>
-    warnings.find((text) => text.includes("huge.png")), 60);
+    warnings.find((text) => text.includes("huge.png")));
 
   await open("../../pictures/broken.json");
   v.seen.broken = await page.says("the list cannot be read");

@@ -17,9 +17,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const stored = (key) => v.tab.evaluate((name) => localStorage.getItem(name), key);
   /** Waits until a lost device has been noted, `count` times since the last complete picture. */
   const noted = (count) => v.until(`loss ${count} to be noted`, async () =>
-    JSON.parse((await stored(LOSSES)) ?? "{}").since_picture >= count, 60);
+    JSON.parse((await stored(LOSSES)) ?? "{}").since_picture >= count);
   const hasNoPicture = () => v.tab.evaluate(() => window.mandelight.pixels().then(() => false, () => true));
-  const drawsAgain = () => v.until("a picture on the new device", async () => !(await hasNoPicture()), 120);
+  const drawsAgain = () => v.until("a picture on the new device", async () => !(await hasNoPicture()));
 
   await page.open();
   const quick = JSON.parse(await page.scene());
@@ -48,7 +48,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await mouse.move(x, y);
     await mouse.down();
     await mouse.move(x + 30, y + 10, { steps: 4 });
-    await v.until("the view to move", async () => (await page.scene()) !== v.seen.after, 60);
+    await v.until("the view to move", async () => (await page.scene()) !== v.seen.after);
     await lose();
     await noted(1);
     v.seen.moved = await page.scene();
@@ -90,7 +90,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     const underWay = () => v.until("saving to be under way", async () => {
       const { exporting, exported } = await page.report();
       return exporting && exported > 0.3;
-    }, 120);
+    });
     const interrupted = async (name, button) => {
       const saved = page.keepDownload(name, button);
       await underWay();
@@ -102,7 +102,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
       await v.until("the loss to be stored", async () => {
         const losses = JSON.parse((await stored(LOSSES)) ?? "{}");
         return losses.at_secs?.length === 1 && losses.since_picture === 0;
-      }, 60);
+      });
       v.seen.still_saving = (v.seen.still_saving ?? 0) + 1;
       v.seen.offered_notice = (v.seen.offered_notice ?? true) && (await said);
       return saved;
@@ -143,7 +143,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await page.show(JSON.stringify(quick));
     await lose();
     await noted(1);
-    await v.until("the new device", () => v.tab.evaluate(() => window.mandelight.hasDevice()), 60);
+    await v.until("the new device", () => v.tab.evaluate(() => window.mandelight.hasDevice()));
     await lose();
     await noted(2);
     await page.says("drawing is paused");
@@ -163,13 +163,13 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     v.seen.lost = await page.scene();
     v.seen.given_up = 0;
     for (let count = 1; count <= 10; count += 1) {
-      await v.until("a device", () => v.tab.evaluate(() => window.mandelight.hasDevice()), 60);
+      await v.until("a device", () => v.tab.evaluate(() => window.mandelight.hasDevice()));
       await lose();
       await noted(count);
       const gaveUp = await v.until("the page to restart or give up", async () => {
         if ((await v.notice())?.again) return "gave up";
         return (await v.tab.evaluate(() => window.mandelight.hasDevice())) && "restarted";
-      }, 60);
+      });
       if (gaveUp !== "gave up") continue;
       v.seen.given_up += 1;
       v.seen.last_notice = (await v.notice()).text;
@@ -189,6 +189,6 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await page.openOffered();
     await page.settled();
     v.seen.taken = await page.scene();
-    await v.until("the losses to be cleared", async () => JSON.parse(await stored(LOSSES)).since_picture === 0, 60);
+    await v.until("the losses to be cleared", async () => JSON.parse(await stored(LOSSES)).since_picture === 0);
   });
 });

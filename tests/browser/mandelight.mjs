@@ -14,9 +14,6 @@ const PANEL_FOOT = 80;
 /** Equal polls, 50 ms apart, after which a value is at rest: frames can be that slow. */
 const REST_POLLS = 10;
 
-/** Longest wait for a picture on a software GPU whose cores other programs use too. */
-const PICTURE_LIMIT_SECS = 420;
-
 export class Mandelight {
   /** @param {import("./visit.mjs").Visit} visit */
   constructor(visit) {
@@ -63,19 +60,15 @@ export class Mandelight {
       const report = await this.report();
       return report?.samplesDone >= samples && report;
     };
-    return this.visit.until(`${samples} samples a pixel`, isThere, PICTURE_LIMIT_SECS);
+    return this.visit.until(`${samples} samples a pixel`, isThere);
   }
 
   /** Waits until the picture is complete and the renderer idle. */
   settled() {
-    return this.visit.until(
-      "the picture to be complete",
-      async () => {
-        const report = await this.report();
-        return report?.idle && report.samplesDone >= report.samplesWanted && report;
-      },
-      PICTURE_LIMIT_SECS,
-    );
+    return this.visit.until("the picture to be complete", async () => {
+      const report = await this.report();
+      return report?.idle && report.samplesDone >= report.samplesWanted && report;
+    });
   }
 
   /** Waits until the picture has a sample for two pixels, or is complete. */
@@ -84,7 +77,7 @@ export class Mandelight {
       const { idle, pixelsPerSample } = await this.report();
       return idle || pixelsPerSample <= 2;
     };
-    return this.visit.until("the picture to be nearly sharp", isThere, PICTURE_LIMIT_SECS);
+    return this.visit.until("the picture to be nearly sharp", isThere);
   }
 
   /** Runs `change` and waits for the complete picture after it. */
@@ -103,7 +96,7 @@ export class Mandelight {
       const scene = await this.scene();
       return scene !== before && scene;
     };
-    await this.visit.until(`${what} to change the scene`, after, 60);
+    await this.visit.until(`${what} to change the scene`, after);
     return this.rested(`the scene after ${what}`, after);
   }
 
@@ -115,7 +108,7 @@ export class Mandelight {
       const isSame = now && JSON.stringify(now) === JSON.stringify(last);
       [last, times] = [now, isSame ? times + 1 : 0];
       return times >= REST_POLLS && now;
-    }, 60);
+    });
   }
 
   /** Whether the interface shows `text`, as a screen reader reads it. */
@@ -129,7 +122,7 @@ export class Mandelight {
 
   /** Waits until the interface shows `text`. */
   says(text) {
-    return this.visit.until(`the text ${text}`, () => this.isSaid(text), 60);
+    return this.visit.until(`the text ${text}`, () => this.isSaid(text));
   }
 
   /** Waits until `count` of the small pictures that the interface shows are there, or all. */
@@ -138,14 +131,14 @@ export class Mandelight {
       const { smallPictures, smallPicturesLeft } = await this.report();
       const areAll = smallPictures > 0 && !smallPicturesLeft && !(await this.isSaid("Looking for places"));
       return smallPictures >= count || areAll;
-    }, PICTURE_LIMIT_SECS);
+    });
   }
 
   /** Opens the scene that a notice offers. */
   async openOffered() {
     const button = this.tab.getByRole("button", { name: "Open the scene anyway", exact: true });
     await button.evaluate((it) => it.click());
-    await this.visit.until("the offer to be taken", async () => (await button.count()) === 0, 30);
+    await this.visit.until("the offer to be taken", async () => (await button.count()) === 0);
   }
 
   /** A widget's rectangle in CSS pixels, or null while the widget is not shown. */
@@ -162,7 +155,7 @@ export class Mandelight {
       if (x > -1 && x + width < window.width + 1) return middle;
       await this.tab.mouse.move(window.width / 2, middle[1]);
       await this.tab.mouse.wheel(0, middle[0] - window.width / 2);
-      await this.visit.until("the row to scroll", async () => (await this.rect(name)).x !== x, 60);
+      await this.visit.until("the row to scroll", async () => (await this.rect(name)).x !== x);
     }
   }
 
@@ -180,7 +173,7 @@ export class Mandelight {
       if (y > top && y < bottom) return [x, y];
       await this.tab.mouse.move(panel.x + panel.width / 2, (top + bottom) / 2);
       await this.tab.mouse.wheel(0, y - (top + bottom) / 2);
-      await this.visit.until("the panel to scroll", async () => (await find())[1] !== y, 60);
+      await this.visit.until("the panel to scroll", async () => (await find())[1] !== y);
     }
   }
 
@@ -247,7 +240,7 @@ export class Mandelight {
 
   /** Clicks a button that saves a file, stores the file as `name`, and returns the suggested name. */
   async keepDownload(name, button) {
-    const download = this.tab.waitForEvent("download", { timeout: PICTURE_LIMIT_SECS * 1000 });
+    const download = this.tab.waitForEvent("download");
     await this.tab.mouse.click(...(await this.middle(button)));
     const file = await download;
     await file.saveAs(join(this.visit.out, name));

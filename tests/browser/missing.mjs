@@ -39,7 +39,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   v.seen.alone = await v.until("the document's own words", () => v.tab.evaluate(() => {
     const late = document.getElementById("notice-late");
     return getComputedStyle(late).visibility === "visible" && late.textContent;
-  }), 60);
+  }));
   await v.screenshot("alone-480x320");
   await v.context.unroute(BOOT);
   for (const [name, [file, fault]] of Object.entries(FAULTS)) {

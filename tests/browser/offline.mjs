@@ -83,7 +83,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   await v.until("the third version", () => v.tab.evaluate(async () => {
     const { waiting, installing } = await navigator.serviceWorker.getRegistration();
     return waiting && !installing && (await caches.keys()).some((name) => name.endsWith("-third"));
-  }), 60);
+  }));
   await v.until("the offer to come again", offered);
 
   // Another tab stays with the version that it shows, and still loads parts of it.

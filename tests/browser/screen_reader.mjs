@@ -45,7 +45,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     }),
   );
   const powerIs = async (value) => (await element("slider", "Power").inputValue()) === value;
-  await v.until("the slider to say so", () => powerIs("5"), 30);
+  await v.until("the slider to say so", () => powerIs("5"));
 
   // What a screen reader reaches gets the keyboard; the Tab key goes on from there.
   await element("slider", "Power").focus();
@@ -55,7 +55,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     const active = nodes.find((node) => node.active)?.active;
     return nodes.find((node) => node.id === active)?.name;
   };
-  await v.until("the keyboard at the slider", async () => (await focused()) === "Power", 30);
+  await v.until("the keyboard at the slider", async () => (await focused()) === "Power");
   await v.tab.keyboard.press("Tab");
   v.seen.after_tab = await v.until(
     "the keyboard at the next control",
@@ -66,18 +66,18 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     30,
   );
   await v.tab.keyboard.press("Shift+Tab");
-  await v.until("the Tab key to go back", async () => (await focused()) === "Power", 30);
+  await v.until("the Tab key to go back", async () => (await focused()) === "Power");
   scenes.stepped = await page.changed("an arrow key", () => v.tab.keyboard.press("ArrowRight"));
 
   const more = element("button", "More");
   await more.evaluate((button) => button.click());
-  await v.until("the section to open", async () => (await more.getAttribute("aria-expanded")) === "true", 30);
+  await v.until("the section to open", async () => (await more.getAttribute("aria-expanded")) === "true");
 
   scenes.chosen = await page.changed("a scene's button", () =>
     element("button", "Coral reef").evaluate((button) => button.click()),
   );
   await page.settled();
-  const download = v.tab.waitForEvent("download", { timeout: 240_000 });
+  const download = v.tab.waitForEvent("download");
   await element("button", "Save picture").evaluate((button) => button.click());
   const file = await download;
   await file.saveAs(join(v.out, "saved.png"));

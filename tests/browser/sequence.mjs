@@ -31,7 +31,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await page.settled();
   const played = async () => (await page.scene()) !== scenes.scrubbed;
   await press("play");
-  await v.until("the path to play", played, 60);
+  await v.until("the path to play", played);
   await press("play");
   await page.rested("the scene after playing", () => page.scene());
 
@@ -40,7 +40,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await press("kind of file");
     const entry = v.tab.getByRole("button", { name, exact: true });
     await entry.evaluate((button) => button.click());
-    await v.until(`the choice of ${name}`, async () => (await entry.count()) === 0, 30);
+    await v.until(`the choice of ${name}`, async () => (await entry.count()) === 0);
   };
   const muxers = () => v.server.requests.filter((name) => name.startsWith("mediabunny-")).length;
   v.seen.muxers = [muxers()];
@@ -131,7 +131,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await page.settled();
   const written = async (name) => {
     await press("save sequence");
-    await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 900);
+    await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed));
     const pieces = await v.tab.evaluate(() => {
       window.fileIsClosed = false;
       return window.written.splice(0);
@@ -168,14 +168,14 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     };
   });
   await press("save sequence");
-  await v.until("an encoder", () => v.tab.evaluate(() => window.encoders.length > 0), 60);
+  await v.until("an encoder", () => v.tab.evaluate(() => window.encoders.length > 0));
   await press("cancel export");
   await page.says("Saving was cancelled.");
   v.seen.cancelled = await v.until("the file to be removed", () => v.tab.evaluate(() =>
     window.isAborted && window.isRemoved && {
       isClosed: window.fileIsClosed,
       encoders: window.encoders.map((encoder) => encoder.state),
-    }), 60);
+    }));
   await v.tab.evaluate(() => void window.written.splice(0));
   v.seen.video_names.push(await written("streamed.mp4"));
 

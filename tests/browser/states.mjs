@@ -67,7 +67,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     for (const size of sizes) {
       [width, height] = size;
       await v.tab.setViewportSize({ width, height });
-      await v.until("the window's size", isDrawn, 60);
+      await v.until("the window's size", isDrawn);
       await v.timed(`${steps.name} ${width}x${height}`, steps);
     }
   };
@@ -96,7 +96,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     if (await page.rect("sheet handle")) return page.drag("sheet handle", [0, 0.4 * height]);
     if (!hasTouch) return;
     await click("panel toggle");
-    await v.until("the panel to be hidden", isHidden, 60);
+    await v.until("the panel to be hidden", isHidden);
   };
 
   const lights = async () => {
@@ -152,7 +152,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.says("Saving was cancelled.");
     await page.rested("the notice", () => page.rect("notice"));
     await shoot("notice");
-    await v.until("the notice to go", async () => !(await page.rect("notice")), 60);
+    await v.until("the notice to go", async () => !(await page.rect("notice")));
     await sampled(1);
   };
   const opening = () => shootSharp("opening");
@@ -172,7 +172,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     const box = v.tab.getByRole("checkbox", { name, exact: true });
     if (await box.isChecked()) return;
     await box.evaluate((it) => it.click());
-    await v.until(`${name} to be ticked`, () => box.isChecked(), 60);
+    await v.until(`${name} to be ticked`, () => box.isChecked());
   };
 
   const ofKeys = async () => {
@@ -184,7 +184,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
       if (hasPictures) await page.smallPictures(SMALL_PICTURES);
       await shootSharp(name);
       await v.tab.keyboard.press(isToggle ? key : "Escape");
-      await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
+      await v.until(`${name} to be gone`, async () => !(await page.rect(rect)));
     }
   };
 
@@ -196,7 +196,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.rested("the editor", () => page.rect("formula text"));
     await shootSharp("formula");
     await v.tab.keyboard.press("Escape");
-    await v.until("the editor to be gone", async () => !(await page.rect("formula text")), 60);
+    await v.until("the editor to be gone", async () => !(await page.rect("formula text")));
     await page.click("Fractal");
     await page.click("more");
     await closePanel();

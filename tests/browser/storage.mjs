@@ -44,7 +44,7 @@ await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) =>
     }, exposure);
   };
   const stored = (that, key, part) =>
-    v.until(`${part} in ${key}`, async () => (await read(key, that.tab))?.includes(part), 60);
+    v.until(`${part} in ${key}`, async () => (await read(key, that.tab))?.includes(part));
 
   await page.open();
   await edit(page, 0.25);
@@ -106,7 +106,7 @@ await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) =>
   await open();
   scenes.version_1 = await page.scene();
   // The interface is drawn once its button is there.
-  await v.until("the button of the panel", () => page.rect("panel toggle"), 60);
+  await v.until("the button of the panel", () => page.rect("panel toggle"));
   v.seen.older_panel = await page.rect("panel");
 
   // Two tabs: each keeps a view, each comes back to its own scene.
@@ -128,10 +128,10 @@ await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) =>
     await edit(that, index + 1);
     await stored(that, "mandelight.scene", `"exposure":${index + 1}`);
     await that.tab.mouse.click(...(await that.middle("Mine")));
-    await v.until("the list of kept views", () => that.rect("keep view"), 60);
+    await v.until("the list of kept views", () => that.rect("keep view"));
     await that.tab.mouse.click(...(await that.middle("keep view")));
     const count = async () => JSON.parse((await read("mandelight.favourites", that.tab)) ?? "[]").length;
-    await v.until(`${index + 1} kept views`, async () => (await count()) >= index + 1, 120);
+    await v.until(`${index + 1} kept views`, async () => (await count()) >= index + 1);
   }
   v.seen.kept = JSON.parse(await read("mandelight.favourites")).map(({ document }) => document);
   for (const [index, that] of tabs.entries()) {

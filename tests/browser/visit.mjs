@@ -31,6 +31,9 @@ const SOFTWARE_GPU = [
 
 const POLL_MS = 50;
 
+/** Longest wait for anything: whatever hangs fails, and no busy machine with a software GPU does. */
+const LIMIT_SECS = 600;
+
 /** Chromium's error for a request that a navigation or a download aborted. */
 const ABORTED = "net::ERR_ABORTED";
 
@@ -54,6 +57,8 @@ export async function visit({ gpu = true, context = {} }, steps) {
     await steps(v);
   } catch (error) {
     v.seen.failure = String(error?.stack ?? error);
+    // At once: the test that reads the observations keeps its output to the end of all tests.
+    console.error(`${v.seen.failure}\nerrors of the page: ${JSON.stringify(v.seen.errors, null, 2)}`);
     // A failed screenshot must not hide the failure itself.
     await v.screenshot("failure").catch(() => {});
   } finally {
@@ -80,6 +85,7 @@ export class Visit {
 
   /** Opens a tab and records every error in it. */
   async open() {
+    this.context.setDefaultTimeout(LIMIT_SECS * 1000);
     this.tab = await this.context.newPage();
     // Browsers ask for it where a page links no icon.
     await this.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
@@ -143,13 +149,13 @@ export class Visit {
 
   /** Polls `look` until its result is truthy, and returns that result. (playwright's own waiting
    * evaluates text, which the page's content security policy forbids.) */
-  async until(what, look, limitSecs = 240) {
+  async until(what, look) {
     const start = performance.now();
     for (;;) {
       const result = await look();
       if (result) return result;
-      if (performance.now() - start > limitSecs * 1000) {
-        throw new Error(`gave up after ${limitSecs} s of waiting for ${what}`);
+      if (performance.now() - start > LIMIT_SECS * 1000) {
+        throw new Error(`gave up after ${LIMIT_SECS} s of waiting for ${what}`);
       }
       await new Promise((resolve) => setTimeout(resolve, POLL_MS));
     }
@@ -169,7 +175,9 @@ export class Visit {
 
   /** Goes on in a new window of the same browser, which knows nothing of the first one. */
   async openAnew(context) {
-    this.context = await this.context.browser().newContext(context);
+    const browser = this.context.browser();
+    await this.context.close();
+    this.context = await browser.newContext(context);
     await this.open();
   }
 
@@ -178,7 +186,7 @@ export class Visit {
     return this.until("a notice", async () => {
       const notice = await this.notice();
       return notice?.again && notice;
-    }, 60);
+    });
   }
 
   /** The notice over the page, or null while none is shown. */

@@ -149,13 +149,13 @@ await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) =>
       const cancel = await page.rect("cancel export");
       if (cancel) await mouse.click(cancel.x + cancel.width / 2, cancel.y + cancel.height / 2);
       return !(await page.report()).exporting;
-    }, 60);
+    });
     await mouse.move(1, 1);
     await v.tab.evaluate((json) => window.mandelight.setScene(json), JSON.stringify(start));
     await v.until("the window's size", async () => {
       const { width, height } = await page.report();
       return width > 1 && width <= SIZE.width && height <= SIZE.height;
-    }, 60);
+    });
     const report = await page.settled();
     await protocol.send("HeapProfiler.collectGarbage");
     const held = await v.tab.evaluate(() => window.countHeld());
