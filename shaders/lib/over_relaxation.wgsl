@@ -11,11 +11,21 @@ struct OverRelaxation {
     ball: f32,
     // The step from the centre of the last ball; 0 at a ray's start.
     step: f32,
+    // Radius of the largest ball that counts as empty at the next point.
+    largest: f32,
 }
+
+// Before a ray's first ball, and where steps may grow without a limit.
+const ANY_BALL = 1e30;
 
 fn over_relaxation() -> OverRelaxation {
     let relaxation = frame.march.relaxation;
-    return OverRelaxation(relaxation, relaxation, 0.0, 0.0);
+    return OverRelaxation(relaxation, relaxation, 0.0, 0.0, ANY_BALL);
+}
+
+// Radius of the ball that a ray takes for empty at its next point, after `spent` of `most` steps.
+fn next_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
+    return max(min(ahead.step, over.largest), step_escalation(spent, most) * ahead.distance);
 }
 
 // How far to step back: to the edge of the last ball if the ball here does not overlap it, since the gap
@@ -24,14 +34,14 @@ fn step_back(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
     let gap = (*over).step - (*over).ball;
     if (gap <= ball) { return 0.0; }
     // The next step is a plain one.
-    *over = OverRelaxation((*over).relaxation, 1.0, 0.0, 0.0);
+    *over = OverRelaxation((*over).relaxation, 1.0, 0.0, 0.0, (*over).largest);
     return gap;
 }
 
 // The next step, from a point whose empty ball has radius `ball`.
 fn next_step(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
     let step = (*over).next * ball;
-    *over = OverRelaxation((*over).relaxation, (*over).relaxation, ball, step);
+    *over = OverRelaxation((*over).relaxation, (*over).relaxation, ball, step, frame.march.step_growth * ball);
     return step;
 }
 

@@ -35,7 +35,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 15] = [
+const HARD: [(&str, Size); 16] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -60,6 +60,8 @@ const HARD: [(&str, Size); 15] = [
     (include_str!("hard_views/uneven.json"), SIZE),
     // A Julia set of power 16, whose estimate at the eye is more than the way to the surface.
     (include_str!("hard_views/first_step.json"), SIZE),
+    // Power 2 at 9e-22: sheets that are half as thick as the rays' own directions allow steps.
+    (include_str!("hard_views/sheets.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;
