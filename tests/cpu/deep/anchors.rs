@@ -31,8 +31,8 @@ fn is_near(name: &str, scene: &Scene) {
 
 #[test]
 fn anchors_are_on_the_surface_in_view() {
-    for anchor in ANCHORS.iter() {
-        for scale in anchor.scales().into_iter().filter(|&scale| scale < 1e-5) {
+    for anchor in ANCHORS {
+        for scale in anchor.scales().filter(|&scale| scale < 1e-5) {
             is_near(
                 &format!("power {} {} at {scale:e}", anchor.power, anchor.name),
                 &anchor.scene(scale),
