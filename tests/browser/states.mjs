@@ -150,7 +150,8 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await shoot("saving");
     await click("cancel export");
     await page.says("Saving was cancelled.");
-    await page.rested("the notice", () => page.rect("notice"));
+    // Not once it is at rest: slow frames would outlast it.
+    await v.until("the notice", () => page.rect("notice"));
     await shoot("notice");
     await v.until("the notice to go", async () => !(await page.rect("notice")));
     await sampled(1);
