@@ -12,20 +12,20 @@ struct OverRelaxation {
     // The step from the centre of the last ball; 0 at a ray's start.
     step: f32,
     // Radius of the largest ball that counts as empty at the next point.
-    largest: f32,
+    max_ball: f32,
 }
 
-// Before a ray's first ball, and where steps may grow without a limit.
-const ANY_BALL = 1e30;
+// `OverRelaxation.max_ball` at a ray's first point.
+const UNLIMITED_BALL = 1e30;
 
 fn over_relaxation() -> OverRelaxation {
     let relaxation = frame.march.relaxation;
-    return OverRelaxation(relaxation, relaxation, 0.0, 0.0, ANY_BALL);
+    return OverRelaxation(relaxation, relaxation, 0.0, 0.0, UNLIMITED_BALL);
 }
 
-// Radius of the ball that a ray takes for empty at its next point, after `spent` of `most` steps.
-fn next_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
-    return max(min(ahead.step, over.largest), step_escalation(spent, most) * ahead.distance);
+// Radius of the ball that a ray takes for empty at a point with the estimate `ahead`, after `spent` of `most` steps.
+fn empty_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
+    return max(min(ahead.step, over.max_ball), step_escalation(spent, most) * ahead.distance);
 }
 
 // How far to step back: to the edge of the last ball if the ball here does not overlap it, since the gap
@@ -34,14 +34,14 @@ fn step_back(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
     let gap = (*over).step - (*over).ball;
     if (gap <= ball) { return 0.0; }
     // The next step is a plain one.
-    *over = OverRelaxation((*over).relaxation, 1.0, 0.0, 0.0, (*over).largest);
+    *over = OverRelaxation((*over).relaxation, 1.0, 0.0, 0.0, (*over).max_ball);
     return gap;
 }
 
 // The next step, from a point whose empty ball has radius `ball`.
 fn next_step(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
     let step = (*over).next * ball;
-    *over = OverRelaxation((*over).relaxation, (*over).relaxation, ball, step, frame.march.step_growth * ball);
+    *over = OverRelaxation((*over).relaxation, (*over).relaxation, ball, step, frame.march.ball_growth * ball);
     return step;
 }
 

@@ -86,7 +86,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
                 ahead = estimate_next(&pending, fractal, ray.origin + t * ray.direction, ray.direction);
             }
             if (pending.is_needed) { break; }
-            ahead.step = next_ball(over, ahead, i, frame.march.march_steps);
+            ahead.step = empty_ball(over, ahead, i, frame.march.march_steps);
             if (!is_looking) {
                 let back = step_back(&over, ahead.step);
                 if (back > 0.0) {

@@ -32,7 +32,7 @@ fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
                 ahead = estimate_next(&pending, fractal, point + s * direction, direction);
             }
             if (pending.is_needed) { break; }
-            ahead.step = next_ball(over, ahead, i, frame.march.shadow_steps);
+            ahead.step = empty_ball(over, ahead, i, frame.march.shadow_steps);
             if (!is_looking) {
                 let back = step_back(&over, ahead.step);
                 s += back;

@@ -26,8 +26,8 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
     let first_pair = FIRST_STEP_PAIR + STEP_PAIRS * dispatch.ray_queue;
     var t = max(interval.x, clear);
     var i = 0u;
-    // The first step has no limit.
-    var longest = 1e30;
+    // The first step has no limit but its own.
+    var longest_step = 1e30;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < max_steps() && t <= interval.y; i++) {
@@ -39,8 +39,8 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
                 let hit = hit_distance(ray, t);
                 // Some estimates are positive inside of the set.
                 if (ahead.distance > hit && !orbit_colors(fractal, point).is_inside) {
-                    let step = max(min(ahead.step, longest), MIN_STEP * hit);
-                    longest = frame.march.step_growth * step;
+                    let step = max(min(ahead.step, longest_step), MIN_STEP * hit);
+                    longest_step = frame.march.ball_growth * step;
                     t += step;
                     continue;
                 }

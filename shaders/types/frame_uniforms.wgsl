@@ -40,8 +40,8 @@ struct March {
     finest_hit: f32,
     // Factor of over-relaxed steps.
     relaxation: f32,
-    // Longest step of a ray, over the step before.
-    step_growth: f32,
+    // Radius of the largest ball that a ray takes for empty, over the radius of the ball before.
+    ball_growth: f32,
     // Radius of the ball that a cone treats as empty, over the safe step.
     ball_part: f32,
     // 1 if the estimate has false minima thinner than a pixel.

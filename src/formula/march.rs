@@ -51,11 +51,13 @@ pub const HALVINGS: u32 = 5;
 pub struct MarchPolicy {
     /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
     pub relaxation: f32,
-    /// Longest step of a ray in views that are drawn about an anchor, over the step before; at least 1.
+    /// Radius of the largest ball that a ray takes for empty in views that are drawn about an anchor, over the radius of
+    /// the ball before; at least 1.
     ///
-    /// Steps there are of the stretch of the ray's own direction, which vanishes at points where a coordinate of the
-    /// orbit turns back. On the way to such a point steps shorten to the length for which they hold at the point itself.
-    pub deep_step_growth: f32,
+    /// In these views the stretch along the ray limits a step. It vanishes where a coordinate of an orbit has an
+    /// extremum along the ray, and then any step is within that limit. Balls shrink before such a point, so that the limit of
+    /// their growth holds at the point itself.
+    pub deep_ball_growth: f32,
     /// Radius of the ball that a cone treats as empty, over the safe step.
     pub ball_part: f32,
     /// The same in views that are drawn about an anchor.
@@ -78,7 +80,7 @@ impl Default for MarchPolicy {
     fn default() -> Self {
         Self {
             relaxation: 1.4,
-            deep_step_growth: 2.0,
+            deep_ball_growth: 2.0,
             ball_part: 1.0,
             deep_ball_part: 1.0,
             checks_hits: false,

@@ -23,18 +23,18 @@ const NEARNESS: f64 = 1e-7;
 const RAYS: u32 = 9;
 /// Most steps of one ray; a ray with more creeps along the surface.
 const MAX_STEPS: u32 = 600;
-/// Longest step past the safe one, as a part of the depth.
+/// Longest step, over the depth, that is longer than the safe step.
 ///
 /// A ray that only takes safe steps creeps through dust.
 const LEAP: f64 = 0.05;
-/// Largest distance over depth at which a ray that passes a surface is beside it.
-const PASSED: f64 = 0.05;
-/// Growth of that ratio over its least value, after which the ray has passed.
-const LEAVING: f64 = 4.0;
-/// Most steps from a ray to a surface beside it.
+/// Distance from a ray to a surface beside it that is in the picture for certain.
 ///
-/// Each leaves at most a third of the distance where estimates are at least half the distance.
-const LANDING_STEPS: u32 = 16;
+/// Per unit of depth, over half the picture's height there. Rays are at most 0.85 of the way to the picture's border.
+const BESIDE: f64 = 0.15;
+/// Growth of the distance over depth, from its least value on, after which a ray has passed a surface.
+const PASSED_GROWTH: f64 = 4.0;
+/// Most steps from a ray to a surface beside it: enough to halve a distance that is beside it until it is a hit.
+const MAX_PROJECTION_STEPS: u32 = 32;
 /// March steps per step of the search: about a tenth of a millisecond.
 const STEPS_AT_ONCE: u32 = 16;
 /// Greatest distance from the eye to an older anchor that f64 rays can use.
@@ -72,10 +72,12 @@ struct RayMarch {
     ray: u32,
     steps: u32,
     depth: f64,
-    /// The ray's closest approach to a surface that it has not left yet.
+    /// Distance estimate at the eye.
+    away: f64,
+    /// The ray's closest approach to a surface that it has not passed yet.
     closest: Option<Approach>,
     /// The way to a surface that the ray has passed.
-    landing: Option<Landing>,
+    projection: Option<SurfaceProjection>,
     /// The vector from the eye to the nearest hit so far.
     nearest: Option<DVec3>,
 }
@@ -85,26 +87,44 @@ struct RayMarch {
 struct Approach {
     point: DVec3,
     /// Distance to the surface over the depth.
-    nearness: f64,
+    ratio: f64,
 }
 
-/// A point on its way from a ray to a surface, by Newton's method along the normal.
-struct Landing {
+/// A point on its way from a ray to a surface beside it.
+struct SurfaceProjection {
     point: DVec3,
+    /// The last point outside the set.
+    outside: DVec3,
     steps: u32,
 }
 
-impl Landing {
-    /// Takes a step; returns the distance to the surface before it.
-    fn step(&mut self, field: &dyn DistanceField) -> f64 {
+impl SurfaceProjection {
+    fn from(point: DVec3) -> Self {
+        Self { point, outside: point, steps: 0 }
+    }
+
+    /// Returns the point if it is at the surface, within `hit`; else takes a step: of Newton's method along the normal,
+    /// or halfway back from inside the set.
+    fn step(&mut self, field: &dyn DistanceField, hit: f64) -> Option<DVec3> {
+        self.steps += 1;
         let distance = field.distance(self.point);
+        if distance <= 0.0 {
+            if self.point.distance(self.outside) <= hit {
+                return Some(self.point);
+            }
+            self.point = self.point.midpoint(self.outside);
+            return None;
+        }
+        if distance <= hit {
+            return Some(self.point);
+        }
         let spacing = 0.01 * distance;
         let inward = -field.normal(self.point, spacing);
         // Estimates in dust are many times the distance.
         let slope = (distance - field.distance(self.point + inward * spacing)) / spacing;
+        self.outside = self.point;
         self.point += inward * (distance / slope.max(0.75));
-        self.steps += 1;
-        distance
+        None
     }
 }
 
@@ -188,8 +208,9 @@ impl RayMarch {
             ray: 0,
             steps: 0,
             depth: 0.0,
+            away,
             closest: None,
-            landing: None,
+            projection: None,
             nearest: None,
         }
     }
@@ -197,9 +218,10 @@ impl RayMarch {
     /// Marches the current ray by a few steps; returns false after the last ray.
     fn step(&mut self, camera: &Camera, aspect: f64) -> bool {
         let ray = camera_ray(camera, &self.field.origin(), ndc(self.ray), aspect);
-        if self.landing.is_some() {
-            return self.land(ray.origin);
+        if self.projection.is_some() {
+            return self.project(ray.origin);
         }
+        let beside = BESIDE * (0.5 * camera.vertical_fov_deg.to_radians()).tan();
         let nearest = self.nearest.map_or(f64::INFINITY, DVec3::length);
         for _ in 0..STEPS_AT_ONCE {
             let point = ray.at(self.depth);
@@ -211,58 +233,63 @@ impl RayMarch {
             let from_center = point - self.field.center();
             let has_left = from_center.length() > self.field.bounding_radius()
                 && from_center.dot(ray.direction) > 0.0;
-            self.steps += 1;
-            if is_hit || has_left || self.depth > nearest || self.steps >= MAX_STEPS {
+            if is_hit || has_left || self.depth > nearest {
                 return self.next_ray();
             }
-            if let Some(point) = self.passed(point, estimate.distance) {
-                self.landing = Some(Landing { point, steps: 0 });
+            self.steps += 1;
+            let is_last = self.steps >= MAX_STEPS;
+            if let Some(closest) = self.passed(point, estimate.distance, beside, is_last) {
+                self.projection = Some(SurfaceProjection::from(closest));
                 return true;
             }
-            self.depth += estimate.step.max((0.25 * estimate.distance).min(LEAP * self.depth));
+            if is_last {
+                return self.next_ray();
+            }
+            // The depth alone would let no step grow at the eye.
+            let leap = LEAP * self.depth.max(LEAP * self.away);
+            self.depth += estimate.step.max((0.25 * estimate.distance).min(leap));
         }
         true
     }
 
-    /// The point beside a surface that the ray has passed on its way to `point`, if it has.
+    /// Updates the ray's closest approach by a point of it; returns that approach if the ray has passed the surface, or
+    /// the point is its last.
     ///
-    /// Steps may pass dust, which is thinner than they are long.
-    fn passed(&mut self, point: DVec3, distance: f64) -> Option<DVec3> {
-        let nearness = distance / self.depth.max(f64::MIN_POSITIVE);
-        match self.closest {
-            Some(closest) if nearness > LEAVING * closest.nearness => {
-                self.closest = None;
-                Some(closest.point)
-            }
-            Some(closest) if nearness >= closest.nearness => None,
-            _ => {
-                self.closest = (nearness < PASSED).then_some(Approach { point, nearness });
-                None
-            }
+    /// Dust may be thinner than steps are long: no point of the ray is a hit.
+    fn passed(&mut self, point: DVec3, distance: f64, beside: f64, is_last: bool) -> Option<DVec3> {
+        let ratio = distance / self.depth.max(f64::MIN_POSITIVE);
+        if ratio < self.closest.map_or(beside, |closest| closest.ratio) {
+            self.closest = Some(Approach { point, ratio });
         }
+        self.closest
+            .take_if(|closest| is_last || ratio > PASSED_GROWTH * closest.ratio)
+            .map(|closest| closest.point)
     }
 
     /// Goes on from a ray that starts at `eye` to the surface beside it; returns false after the last ray.
-    fn land(&mut self, eye: DVec3) -> bool {
-        let Some(landing) = &mut self.landing else { return true };
-        let way = landing.point - eye;
-        if landing.step(&*self.field) <= NEARNESS * way.length() {
-            self.nearest = self
-                .nearest
-                .filter(|nearest| nearest.length_squared() < way.length_squared())
-                .or(Some(way));
+    fn project(&mut self, eye: DVec3) -> bool {
+        let Some(projection) = &mut self.projection else { return true };
+        let hit = NEARNESS * projection.point.distance(eye);
+        if let Some(point) = projection.step(&*self.field, hit) {
+            let way = point - eye;
+            let is_nearer = self.nearest.is_none_or(|nearest| way.length() < nearest.length());
+            if is_nearer {
+                self.nearest = Some(way);
+            }
             return self.next_ray();
         }
-        if landing.steps >= LANDING_STEPS {
-            self.landing = None;
+        self.steps += 1;
+        if projection.steps < MAX_PROJECTION_STEPS {
+            return true;
         }
-        true
+        self.projection = None;
+        self.steps < MAX_STEPS || self.next_ray()
     }
 
     /// Goes on to the next ray; returns false after the last.
     fn next_ray(&mut self) -> bool {
         (self.ray, self.steps, self.depth) = (self.ray + 1, 0, 0.0);
-        (self.closest, self.landing) = (None, None);
+        (self.closest, self.projection) = (None, None);
         self.ray < RAYS
     }
 }

@@ -58,8 +58,8 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Growth of steps without a limit.
-const ANY_GROWTH: f32 = 1e9;
+/// Growth of balls in views whose steps are bounds in every direction.
+const UNLIMITED_GROWTH: f32 = 1e9;
 
 /// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
@@ -142,7 +142,7 @@ fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         relaxation: policy.relaxation,
-        step_growth: if reference.is_some() { policy.deep_step_growth } else { ANY_GROWTH },
+        ball_growth: if reference.is_some() { policy.deep_ball_growth } else { UNLIMITED_GROWTH },
         ball_part: if reference.is_some() { policy.deep_ball_part } else { policy.ball_part },
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,

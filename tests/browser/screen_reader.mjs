@@ -57,14 +57,10 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   };
   await v.until("the keyboard at the slider", async () => (await focused()) === "Power");
   await v.tab.keyboard.press("Tab");
-  v.seen.after_tab = await v.until(
-    "the keyboard at the next control",
-    async () => {
-      const name = await focused();
-      return name !== "Power" && name;
-    },
-    30,
-  );
+  v.seen.after_tab = await v.until("the keyboard at the next control", async () => {
+    const name = await focused();
+    return name !== "Power" && name;
+  });
   await v.tab.keyboard.press("Shift+Tab");
   await v.until("the Tab key to go back", async () => (await focused()) === "Power");
   scenes.stepped = await page.changed("an arrow key", () => v.tab.keyboard.press("ArrowRight"));

@@ -31,8 +31,11 @@ const SOFTWARE_GPU = [
 
 const POLL_MS = 50;
 
-/** Longest wait for anything: whatever hangs fails, and no busy machine with a software GPU does. */
+/** Longest wait for anything: only what hangs takes that long, on a busy machine with a software GPU too. */
 const LIMIT_SECS = 600;
+
+/** Longest wait for the screenshot of a failed visit. */
+const FAILURE_LIMIT_MS = 30_000;
 
 /** Chromium's error for a request that a navigation or a download aborted. */
 const ABORTED = "net::ERR_ABORTED";
@@ -59,7 +62,8 @@ export async function visit({ gpu = true, context = {} }, steps) {
     v.seen.failure = String(error?.stack ?? error);
     // At once: the test that reads the observations keeps its output to the end of all tests.
     console.error(`${v.seen.failure}\nerrors of the page: ${JSON.stringify(v.seen.errors, null, 2)}`);
-    // A failed screenshot must not hide the failure itself.
+    // A failed screenshot must not hide the failure itself, nor a tab that hangs hold it back.
+    v.context.setDefaultTimeout(FAILURE_LIMIT_MS);
     await v.screenshot("failure").catch(() => {});
   } finally {
     v.seen.asked = server.requests;
@@ -173,7 +177,7 @@ export class Visit {
     await this.tab.screenshot({ path: join(this.out, `${name}.png`) });
   }
 
-  /** Goes on in a new window of the same browser, which knows nothing of the first one. */
+  /** Closes the window and goes on in a new one, which knows nothing of the first one. */
   async openAnew(context) {
     const browser = this.context.browser();
     await this.context.close();

@@ -60,7 +60,7 @@ const HARD: [(&str, Size); 16] = [
     (include_str!("hard_views/uneven.json"), SIZE),
     // A Julia set of power 16, whose estimate at the eye is more than the way to the surface.
     (include_str!("hard_views/first_step.json"), SIZE),
-    // Power 2 at 9e-22: sheets that are half as thick as the rays' own directions allow steps.
+    // Power 2 at 9e-22: a third of a step, as the stretch along a ray limits it, is in front of thin sheets.
     (include_str!("hard_views/sheets.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.

@@ -198,7 +198,7 @@ impl Mandelbulb {
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
         MarchPolicy {
             relaxation: (1.0 - relaxed) + usual.relaxation * relaxed,
-            deep_step_growth: usual.deep_step_growth,
+            deep_ball_growth: usual.deep_ball_growth,
             ball_part: (0.25 * power - 0.5).clamp(0.7, 1.0),
             deep_ball_part: DEEP_BALL_PART,
             checks_hits: self.power < HIT_CHECK_BELOW,

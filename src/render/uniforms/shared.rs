@@ -90,8 +90,8 @@ host_shared! {
         finest_hit: f32,
         /// Factor of over-relaxed steps.
         relaxation: f32,
-        /// Longest step, over the step before.
-        step_growth: f32,
+        /// Radius of the largest ball that counts as empty, over the radius of the ball before.
+        ball_growth: f32,
         /// Radius of the ball that a cone treats as empty, over the safe step.
         ball_part: f32,
         /// 1 if the estimate has false minima.
