@@ -25,7 +25,7 @@ fn over_relaxation() -> OverRelaxation {
 
 // Radius of the ball that a ray takes for empty at a point with the estimate `ahead`, after `spent` of `most` steps.
 fn empty_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
-    return max(min(ahead.step, over.max_ball), step_escalation(spent, most) * ahead.distance);
+    return min(max(ahead.step, step_escalation(spent, most) * ahead.distance), over.max_ball);
 }
 
 // How far to step back: to the edge of the last ball if the ball here does not overlap it, since the gap
