@@ -29,7 +29,7 @@ const MAX_STEPS: u32 = 600;
 const LEAP: f64 = 0.05;
 /// Distance from a ray to a surface beside it that is in the picture for certain.
 ///
-/// Per unit of depth, over half the picture's height there. Rays are at most 0.85 of the way to the picture's border.
+/// Per unit of depth, over half the picture's shorter side there. Rays are at most 0.85 of the way to the picture's border.
 const BESIDE: f64 = 0.15;
 /// Growth of the distance over depth, from its least value on, after which a ray has passed a surface.
 const PASSED_GROWTH: f64 = 4.0;
@@ -221,7 +221,7 @@ impl RayMarch {
         if self.projection.is_some() {
             return self.project(ray.origin);
         }
-        let beside = BESIDE * (0.5 * camera.vertical_fov_deg.to_radians()).tan();
+        let beside = BESIDE * camera.half_height(aspect) * aspect.min(1.0);
         let nearest = self.nearest.map_or(f64::INFINITY, DVec3::length);
         for _ in 0..STEPS_AT_ONCE {
             let point = ray.at(self.depth);

@@ -150,7 +150,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await shoot("saving");
     await click("cancel export");
     await page.says("Saving was cancelled.");
-    // Not once it is at rest: slow frames would outlast it.
+    // It goes after six seconds: slow frames may not show it at rest for long enough before.
     await v.until("the notice", () => page.rect("notice"));
     await shoot("notice");
     await v.until("the notice to go", async () => !(await page.rect("notice")));

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use mandelight::{
     formula::march::DEEP_FOOTPRINT,
-    fractal::Search,
+    fractal::{Search, ndc_of},
     scene::{Scene, document},
 };
 use mandelight_test_support::deep::views::ANCHORS;
@@ -30,10 +30,9 @@ fn assert_anchor_in_view(name: &str, scene: &Scene) {
     let way = reference.anchor() - &camera.position;
     let far = way.length() / camera.view_unit();
     assert!(far < FARTHEST, "{name}: the anchor is {far} away");
-    let seen = camera.rotation().inverse() * way;
-    let half_height = (0.5 * camera.vertical_fov_deg.to_radians()).tan();
-    let ndc = [seen.x / ASPECT, seen.y].map(|v| v / (-seen.z * half_height));
-    assert!(seen.z < 0.0 && ndc.iter().all(|v| v.abs() <= 1.0), "{name}: it is at {ndc:?}");
+    let ndc = ndc_of(camera, way, ASPECT);
+    let is_in_view = ndc.is_some_and(|ndc| ndc.abs().max_element() <= 1.0);
+    assert!(is_in_view, "{name}: it is at {ndc:?}");
     let field = fractal.field_about(reference, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
     let off = field.distance(DVec3::ZERO) / way.length();
     assert!(off < OFF_THE_SURFACE, "{name}: it is {off} off the surface");
