@@ -82,9 +82,11 @@ impl Mutate {
         self.is_open
     }
 
-    /// The pictures to draw, the first ones first.
+    /// The pictures to draw: the scene itself, whose kernels are compiled, then its variations.
     pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
-        self.variations.iter()
+        let variations = self.variations.iter().enumerate();
+        let others = variations.filter(|&(place, _)| place != MIDDLE).map(|(_, it)| it);
+        self.variations.get(MIDDLE).into_iter().chain(others)
     }
 
     fn forget(&mut self) {

@@ -46,13 +46,21 @@ pub fn show(
     is_stereo: bool,
 ) -> egui::Response {
     let painter = ui.painter().with_clip_rect(frame.rect);
-    painter.rect_filled(frame.rect, 0.0, theme::BACKGROUND);
     let newest = picture.map(|picture| KeptPicture { picture, span: 1.0 });
-    for KeptPicture { picture, span } in newest.into_iter().chain(kept) {
+    let pictures = newest.into_iter().chain(kept).map(|KeptPicture { picture, span }| {
         // The pictures of both eyes have their own places.
         let at = if is_stereo { frame.rect } else { placed(picture.size_px, span, frame) };
+        (picture.texture, at)
+    });
+    let pictures: Vec<_> = pictures.collect();
+    // What a picture covers is not painted: on a slow GPU, each layer of a large window takes long.
+    let lowest = pictures.iter().rposition(|(_, at)| at.contains_rect(frame.rect));
+    if lowest.is_none() {
+        painter.rect_filled(frame.rect, 0.0, theme::BACKGROUND);
+    }
+    for &(texture, at) in &pictures[lowest.unwrap_or(0)..] {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        painter.image(picture.texture, at, whole, Color32::WHITE);
+        painter.image(texture, at, whole, Color32::WHITE);
     }
     let response = ui.interact(frame.rect, id(), Sense::click_and_drag());
     if response.has_focus() {

@@ -8,6 +8,7 @@
 use std::{
     cell::RefCell,
     rc::{Rc, Weak},
+    time::Duration,
 };
 
 use eframe::egui_wgpu::RenderState;
@@ -31,6 +32,9 @@ const TICK_MS: i32 = 4;
 
 /// Shortest seconds between repaints that show only new numbers; longer where frames take longer.
 const REPORT_EVERY_SECS: f64 = 0.2;
+
+/// When a requested frame is drawn: at once, but egui draws two for a request without a delay.
+const FRAME_DELAY: Duration = Duration::from_millis(1);
 
 /// Frames until a new activity is on the screen. Compilation waits for that, to be announced first.
 const FRAMES_PER_ACTIVITY: u32 = 2;
@@ -185,7 +189,7 @@ impl Engine {
             false
         } else if self.is_turn_of_small_pictures(session) {
             if self.small_pictures.pump(now_secs) {
-                self.context.request_repaint();
+                self.context.request_repaint_after(FRAME_DELAY);
             }
             if self.small_pictures.is_compiling() {
                 self.view.pump(now_secs);
@@ -253,7 +257,7 @@ impl Engine {
         let report_every_secs = REPORT_EVERY_SECS.max(report.frame_interval_secs);
         if is_new || now_secs - self.repainted_at_secs > report_every_secs {
             self.repainted_at_secs = now_secs;
-            self.context.request_repaint();
+            self.context.request_repaint_after(FRAME_DELAY);
         }
     }
 }

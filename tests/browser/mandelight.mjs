@@ -71,13 +71,13 @@ export class Mandelight {
     });
   }
 
-  /** Waits until the picture has a sample for two pixels, or is complete. */
-  nearlySharp() {
+  /** Waits until the picture has a sample for so many pixels, or is complete. */
+  refined(mostPixels) {
     const isThere = async () => {
       const { idle, pixelsPerSample } = await this.report();
-      return idle || pixelsPerSample <= 2;
+      return idle || pixelsPerSample <= mostPixels;
     };
-    return this.visit.until("the picture to be nearly sharp", isThere);
+    return this.visit.until(`a sample for ${mostPixels} pixels`, isThere);
   }
 
   /** Runs `change` and waits for the complete picture after it. */

@@ -9,6 +9,9 @@ const DEVICES = [
   { sizes: [[390, 844], [844, 390]], context: { hasTouch: true, isMobile: true, deviceScaleFactor: 1 } },
 ];
 
+/** Pixels of the view for each of its samples: a software GPU takes most of a minute for a whole sample, in each state. */
+const MOST_PIXELS = 8;
+
 /** Small pictures that a state waits for: a software GPU takes minutes for those of all variations. */
 const SMALL_PICTURES = 2;
 
@@ -51,9 +54,9 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     const rects = await v.tab.evaluate(() => window.mandelight.uiRects());
     v.seen.states.push({ name, state, size: [width, height], rects });
   };
-  /** Keeps a picture of a state once the view is nearly sharp: a whole sample takes twice as long, in each state. */
-  const shootSharp = async (state) => {
-    await v.timed(`${state} ${width}x${height}, sharp`, () => page.nearlySharp());
+  /** Keeps a picture of a state once the view has a sample for so many pixels. */
+  const shootRefined = async (state, mostPixels = MOST_PIXELS) => {
+    await v.timed(`${state} ${width}x${height}, refined`, () => page.refined(mostPixels));
     await shoot(state);
   };
   /** Whether the interface has the window's size: a panel at the side is beside the status line. */
@@ -102,7 +105,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   const lights = async () => {
     await page.click("All lights");
     await page.scrollTo("All lights");
-    await shootSharp("lights");
+    await shootRefined("lights");
     await page.click("All lights");
   };
   const mine = async () => {
@@ -117,7 +120,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.click("keep view");
     await v.until("the view to be kept", async () => (await kept()) !== before);
     await scrollToTop();
-    await shootSharp("mine");
+    await shootRefined("mine");
     await button("Scenes").evaluate((it) => it.click());
   };
   const look = async () => {
@@ -130,7 +133,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     if (hasTouch) {
       // Fingers hover nowhere: a tap shows the look, and keeps it.
       await page.changed("a tap on a swatch", () => v.tab.touchscreen.tap(x, y));
-      await shootSharp("look");
+      await shootRefined("look");
       await page.changed("undoing the look", () => v.tab.keyboard.press("Control+z"));
       return;
     }
@@ -139,7 +142,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await v.tab.mouse.move(x, y);
     await page.rested("the preview", () => page.rect("look preview"));
     await v.until("the look's picture", async () => (await page.report()).pictures > pictures);
-    await shootSharp("look");
+    await shootRefined("look");
     await v.tab.mouse.move(...(await page.middle("view")));
   };
   const saving = async () => {
@@ -156,11 +159,11 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await v.until("the notice to go", async () => !(await page.rect("notice")));
     await sampled(1);
   };
-  const opening = () => shootSharp("opening");
+  const opening = () => shootRefined("opening", 2);
   const ofThePanel = async () => {
     await openPanel();
     await page.click("more");
-    await shootSharp("panel");
+    await shootRefined("panel");
     await lights();
     await page.click("more");
     await mine();
@@ -183,7 +186,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
       if (ticked) await tick(ticked);
       if (words) await v.tab.keyboard.type(words);
       if (hasPictures) await page.smallPictures(SMALL_PICTURES);
-      await shootSharp(name);
+      await shootRefined(name);
       await v.tab.keyboard.press(isToggle ? key : "Escape");
       await v.until(`${name} to be gone`, async () => !(await page.rect(rect)));
     }
@@ -195,7 +198,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await page.click("Fractal");
     await button("Edit the formula…").evaluate((it) => it.click());
     await page.rested("the editor", () => page.rect("formula text"));
-    await shootSharp("formula");
+    await shootRefined("formula");
     await v.tab.keyboard.press("Escape");
     await v.until("the editor to be gone", async () => !(await page.rect("formula text")));
     await page.click("Fractal");
@@ -218,7 +221,7 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   const ofTheGallery = async () => {
     await openPanel();
     await page.rested("a card", () => page.rect("gallery 0"));
-    await shootSharp("gallery");
+    await shootRefined("gallery");
     await closePanel();
   };
 

@@ -23,6 +23,7 @@ mod help;
 mod hostile;
 mod hybrids;
 mod keyboard;
+mod layers;
 mod light_click;
 mod light_handles;
 mod looks;

@@ -19,14 +19,14 @@ fn a_variation_becomes_the_scene_by_a_click_and_locks_hold() {
     assert_eq!(small.len(), 9);
     let is_start =
         |scene: &Scene| Scene { quality: start.quality.clone(), ..scene.clone() } == start;
-    assert!(is_start(&small[4].scene), "the scene is in the middle");
+    assert!(is_start(&small[0].scene), "the scene itself is drawn first");
     assert_eq!(small.iter().filter(|picture| is_start(&picture.scene)).count(), 1);
     // The view is kept at first.
     assert!(small.iter().all(|picture| picture.scene.camera == start.camera));
     harness.get_by_label("Variation 2").click();
     harness.run_steps(20);
     let chosen = scene(&harness).clone();
-    assert_eq!(chosen.fractal, small[1].scene.fractal);
+    assert_eq!(chosen.fractal, small[2].scene.fractal);
     assert_eq!(chosen.quality, start.quality);
     harness.get_by_label("Keep: Shape").click();
     harness.run_steps(20);
@@ -50,7 +50,11 @@ fn cells_without_a_picture_say_that_it_is_being_drawn() {
     let picture = ViewTexture { texture: egui::TextureId::User(7), size_px: [96, 64] };
     harness.state_mut().small_pictures.by_id.insert(first, picture);
     harness.run_steps(2);
-    assert_eq!(painted(&harness, "Drawing…").len(), 8);
+    let still_drawn = painted(&harness, "Drawing…");
+    assert_eq!(still_drawn.len(), 8);
+    // The first picture is the scene's, in the middle.
+    let middle = harness.get_by_label("The scene itself").rect();
+    assert!(still_drawn.iter().all(|text| !middle.contains(text.center())));
 }
 
 #[test]
