@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
+//! | `frames` | when a frame of the interface is measured |
 //! | `progress` | how much of the picture has been computed |
 //! | `cost`, `rate` | estimates of what work takes |
 //! | `plan` | what an integrator says of its work |
@@ -21,6 +22,7 @@ use super::{lattice::COARSEST, region::Overlap};
 mod adaptation;
 mod completion;
 mod cost;
+mod frames;
 mod gbuffer_validity;
 mod plan;
 mod point_selection;
@@ -32,6 +34,7 @@ mod work;
 use adaptation::Adaptation;
 use completion::{InFlight, Piece};
 use cost::Cost;
+use frames::Frames;
 pub use gbuffer_validity::GBufferValidity;
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
@@ -100,6 +103,7 @@ pub struct Schedule {
     /// Movement of auto exposure.
     adaptation: Adaptation,
     in_flight: InFlight,
+    frames: Frames,
     /// Number of refining pieces so far, modulo 2³².
     pieces: u32,
     cost: Cost,
@@ -123,6 +127,7 @@ impl Schedule {
             shown_at: f64::NEG_INFINITY,
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
+            frames: Frames::default(),
             pieces: 0,
             cost: Cost::new(plan),
         }
@@ -264,6 +269,7 @@ impl Schedule {
     pub fn change(&mut self, stale: Stale, moving: bool, now_secs: f64) {
         self.moving = moving;
         self.changed_at = now_secs;
+        self.frames.release();
         // A jump that was never shown stays one.
         self.is_jump = (stale == Stale::Geometry && !moving) || (self.is_jump && self.opening);
         self.restart(stale);
@@ -302,7 +308,7 @@ impl Schedule {
     /// None where enough is in flight, where the last picture of a movement has been shown, or
     /// where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        if self.in_flight.len() >= MAX_IN_FLIGHT {
+        if self.in_flight.len() >= MAX_IN_FLIGHT || self.frames.hold_work() {
             return None;
         }
         let phase = self.phase();
@@ -320,7 +326,7 @@ impl Schedule {
     /// `finished`: the pieces that [`Self::next`] returned, and frames of the interface (none), in
     /// order, each with the GPU time since the one before it ended, milliseconds.
     pub fn collect(&mut self, finished: &[(Option<Work>, f64)]) {
-        self.in_flight.collect(finished, &mut self.cost);
+        self.in_flight.collect(finished, &mut self.frames, &mut self.cost);
     }
 
     /// What the next piece of work is for.

@@ -1,4 +1,4 @@
-//! The shell's message over the picture, and the file that is being read.
+//! The shell's message over the picture, the file that is being read, and a file that is being saved out of sight.
 
 use egui::{
     Align2, Color32, Margin, Rect, Response, Ui, accesskit::Role, pos2, text::LayoutJob, vec2,
@@ -8,6 +8,7 @@ use super::{
     action::Action,
     display_inputs::{DisplayInputs, Notice},
     icon::{Icon, icon_button},
+    panel,
     rects::Rects,
     theme,
 };
@@ -64,6 +65,23 @@ pub fn show(
             }
         });
         rects.record("reading", &shown);
+        top = shown.rect.bottom() + GAP;
+    }
+    // Where neither the panel nor the timeline shows it.
+    if let Some(progress) = inputs.export.filter(|_| rects.get("cancel export").is_none()) {
+        let text = panel::saving_text(progress);
+        let (text_color, edge) = (Color32::WHITE, theme::LINE);
+        let (role, buttons_width) = (Role::Status, CROSS_WIDTH);
+        let message =
+            Message { id: "saving", role, text: &text, text_color, edge, top, buttons_width };
+        let shown = message.show(ui, view, |ui| {
+            let cancel = icon_button(ui, Icon::Cross, "Cancel", panel::CANCEL_HELP);
+            rects.record("cancel export", &cancel);
+            if cancel.clicked() {
+                actions.push(Action::CancelExport);
+            }
+        });
+        rects.record("saving", &shown);
     }
 }
 

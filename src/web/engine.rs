@@ -60,6 +60,10 @@ pub struct Engine {
     shown_activity: Activity,
     /// Repaints still to request for that activity.
     frames_due: u32,
+    /// Whether a frame is to be drawn as soon as the view makes way.
+    is_frame_due: bool,
+    /// Whether the last step was the view's, and no export's or small picture's.
+    is_view_drawn: bool,
     repainted_at_secs: f64,
     /// The number of device errors at the last notice.
     errors_shown: u64,
@@ -89,6 +93,8 @@ impl Engine {
             has_drawn: false,
             shown_activity: Activity::Idle,
             frames_due: 0,
+            is_frame_due: false,
+            is_view_drawn: false,
             repainted_at_secs: 0.0,
             errors_shown: 0,
             session,
@@ -181,6 +187,7 @@ impl Engine {
 
     /// Submits as much work as fits now. Returns whether more is left.
     fn step(&mut self, session: &mut Session, now_secs: f64) -> bool {
+        self.is_view_drawn = false;
         let busy = if self.exporter.is_busy() {
             self.exporter.step(session, now_secs);
             // The view waited for the export, so it may have work left.
@@ -197,6 +204,7 @@ impl Engine {
             // The view waited, so it may have work left.
             true
         } else {
+            self.is_view_drawn = true;
             let busy = self.view.pump(now_secs) || self.small_pictures.has_work();
             let report = self.view.report();
             if !busy && report.is_finished() {
@@ -249,13 +257,20 @@ impl Engine {
     /// Requests a repaint where something new is to be shown.
     fn request_repaint(&mut self, pictures_before: u64, busy: bool, report: &Report) {
         let now_secs = page::now_secs();
+        if page::is_hidden() {
+            self.view.end_wait_for_frame();
+        }
         if report.activity != self.shown_activity {
             self.shown_activity = report.activity.clone();
             self.frames_due = FRAMES_PER_ACTIVITY;
         }
         let is_new = report.pictures != pictures_before || self.frames_due > 0 || !busy;
         let report_every_secs = REPORT_EVERY_SECS.max(report.frame_interval_secs);
-        if is_new || now_secs - self.repainted_at_secs > report_every_secs {
+        self.is_frame_due |= is_new || now_secs - self.repainted_at_secs > report_every_secs;
+        // While the view does not draw, it does not learn what has ended either.
+        let may_wait = self.is_view_drawn && busy && !page::is_hidden();
+        if self.is_frame_due && (!may_wait || self.view.make_way_for_frame(now_secs)) {
+            self.is_frame_due = false;
             self.repainted_at_secs = now_secs;
             self.context.request_repaint_after(FRAME_DELAY);
         }

@@ -212,6 +212,18 @@ impl LiveView {
         }
     }
 
+    /// Makes way for a frame of the interface that reports progress. Returns whether it may be drawn now.
+    pub fn make_way_for_frame(&mut self, now_secs: f64) -> bool {
+        self.view.as_mut().is_none_or(|view| view.make_way_for_frame(now_secs))
+    }
+
+    /// Submits work again although no frame of the interface came.
+    pub fn end_wait_for_frame(&mut self) {
+        if let Some(view) = &mut self.view {
+            view.end_wait_for_frame();
+        }
+    }
+
     /// Turns the film's histogram in the report on or off.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if let Some(view) = &mut self.view {

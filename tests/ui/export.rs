@@ -4,7 +4,8 @@ use egui::{Key, Modifiers};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     export::jpeg,
-    ui::{Action, DEFAULT_QUALITY, ExportProgress, StillFile, StillFormat},
+    scene::presets,
+    ui::{Action, DEFAULT_QUALITY, ExportProgress, Settings, StillFile, StillFormat},
 };
 
 use crate::stage::*;
@@ -77,4 +78,37 @@ fn an_export_shows_its_progress_and_can_be_cancelled() {
     harness.get_by_label_contains("1 min 15 s left");
     press(&mut harness, "Cancel");
     assert_eq!(harness.state().actions, [Action::CancelExport]);
+}
+
+/// The progress and its button are always in sight, and once: over the view where no panel shows them.
+#[test]
+fn a_file_that_is_saved_out_of_sight_can_be_cancelled() {
+    // A phone's sheet is low at first, so that it has no fixed area for saving.
+    for (size, key, is_over_view) in [
+        ([1280.0, 720.0], None, false),
+        ([1280.0, 720.0], Some(Key::P), true),
+        ([390.0, 844.0], None, true),
+        ([844.0, 390.0], None, true),
+    ] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        harness.run();
+        if let Some(key) = key {
+            harness.key_press(key);
+            harness.run();
+        }
+        harness.state_mut().export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
+        harness.run();
+        let rects = harness.state().interface.rects();
+        assert_eq!(rects.get("saving").is_some(), is_over_view, "{size:?}");
+        let cancel = rects.get("cancel export").expect("a button");
+        if is_over_view {
+            let view = rects.get("view").expect("the view");
+            assert!(view.contains_rect(rects.get("saving").expect("the message")), "{size:?}");
+            assert!(harness.query_all_by_label("Saving, 1 min 15 s left").count() > 0);
+        }
+        // A drag without a way is a click.
+        drag(&mut harness, cancel.center(), cancel.center(), 1);
+        harness.run();
+        assert_eq!(harness.state().actions, [Action::CancelExport], "{size:?}");
+    }
 }

@@ -126,6 +126,25 @@ fn a_light_setup_that_was_chosen_has_handles() {
     assert!(has_handle(&harness));
 }
 
+/// A scene that only its sky lights has the sun for its key light.
+#[test]
+fn the_key_light_s_ball_moves_the_sun_of_a_sky() {
+    let mut harness = first_visit();
+    press(&mut harness, "Looks: Lights");
+    button(&harness, "Light: Sky").click();
+    harness.run_steps(6);
+    let before = scene(&harness).lights.clone();
+    assert!(before.environment.is_empty());
+    harness.get_by_label("Drag the dot to move the sun.");
+    let ball = harness.state().interface.rects().get("key light ball").expect("the ball");
+    drag(&mut harness, ball.center(), ball.center() + vec2(12.0, -8.0), 4);
+    let after = scene(&harness).lights.clone();
+    assert_ne!(after.rig.sky.sun_direction, before.rig.sky.sun_direction);
+    assert_eq!(after.environment, before.environment);
+    // Without a sun there is no ball, but still a way to a first light.
+    press(&mut harness, "Light a place");
+}
+
 #[test]
 fn the_keyboard_at_the_ball_shows_handles_too() {
     let mut harness = first_visit();

@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 
 use super::{
     cost::Cost,
+    frames::Frames,
     types::{Arithmetic, Phase},
     work::{Trace, Work},
 };
@@ -41,6 +42,8 @@ pub struct InFlight {
 struct Completion {
     /// The piece; none for a frame of the interface.
     work: Option<(Work, Piece)>,
+    /// Whether it is a frame of the interface that had the GPU to itself.
+    is_frame_alone: bool,
     /// GPU time since the completion before it, milliseconds.
     busy_ms: f64,
     expected_ms: f64,
@@ -81,7 +84,12 @@ impl InFlight {
 
     /// Removes finished pieces and learns their costs. `finished`: pieces and frames of the interface
     /// (none), in order, each with the GPU time since the completion before it, milliseconds.
-    pub fn collect(&mut self, finished: &[(Option<Work>, f64)], cost: &mut Cost) {
+    pub fn collect(
+        &mut self,
+        finished: &[(Option<Work>, f64)],
+        frames: &mut Frames,
+        cost: &mut Cost,
+    ) {
         let mut completions = Vec::new();
         for &(work, busy_ms) in finished {
             let work = match work {
@@ -93,7 +101,8 @@ impl InFlight {
                 None => None,
             };
             let expected_ms = work.map_or(cost.interface_ms(), |(_, piece)| piece.expected_ms);
-            completions.push(Completion { work, busy_ms, expected_ms });
+            let is_frame_alone = work.is_none() && frames.ended();
+            completions.push(Completion { work, is_frame_alone, busy_ms, expected_ms });
         }
         for group in completions.chunk_by(|_, next| next.is_merged()) {
             self.are_merged |= group.len() > 1;
@@ -128,8 +137,8 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
     for completion in group {
         match completion.work {
             Some((Work::Display(_), _)) => cost.displayed(took_ms(completion)),
-            None => cost.interface_drawn(took_ms(completion)),
-            Some((Work::Trace(_), _)) => {}
+            None if completion.is_frame_alone => cost.interface_drawn(took_ms(completion)),
+            None | Some((Work::Trace(_), _)) => {}
         }
     }
 }

@@ -11,11 +11,9 @@
 //!
 //! The integrator's [`Plan`] says how many rays a sample counts as.
 
-use std::collections::VecDeque;
-
 use super::{
     plan::{Plan, SampleCost, WorkKind},
-    rate::{CostHistory, Rate, push, quantile},
+    rate::{CostHistory, Rate},
     types::{Arithmetic, Phase},
     work::Job,
 };
@@ -28,15 +26,6 @@ const MIN_WORKGROUPS: f64 = 2.0;
 
 /// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.
 const MAX_INTERFACE_MS: f64 = 200.0;
-
-/// Frames of the interface that an estimate is made of.
-const FRAMES: usize = 9;
-
-/// Part of those frames that took no more than the estimate.
-///
-/// Browsers count most of some frames as the piece before or after, so that these seem short; none seems longer than it
-/// was.
-const FRAMES_QUANTILE: f64 = 0.9;
 
 /// Part of a budget that is planned for: a picture may take more than the one before it.
 const PLANNED: f64 = 0.9;
@@ -70,8 +59,7 @@ pub struct Cost {
     display_ms: f64,
     /// Time of the last display alone.
     last_display_ms: f64,
-    /// Times of the last frames of the interface, milliseconds.
-    frames_ms: VecDeque<f64>,
+    interface_ms: f64,
     /// The visibility bits of the lights that have shadow rays.
     casting: u64,
 }
@@ -95,7 +83,7 @@ impl Cost {
             arithmetic: Arithmetic::default(),
             display_ms: 0.0,
             last_display_ms: f64::INFINITY,
-            frames_ms: VecDeque::new(),
+            interface_ms: 0.0,
             casting: u64::MAX,
         }
     }
@@ -156,14 +144,14 @@ impl Cost {
         self.display_ms
     }
 
-    /// Learns the time of a frame of the interface.
+    /// Learns the time of a frame of the interface that had the GPU to itself.
     pub fn interface_drawn(&mut self, busy_ms: f64) {
-        push(&mut self.frames_ms, FRAMES, busy_ms.min(MAX_INTERFACE_MS));
+        self.interface_ms = busy_ms.min(MAX_INTERFACE_MS);
     }
 
     /// Estimated time of a frame of the interface, milliseconds.
     pub fn interface_ms(&self) -> f64 {
-        quantile(FRAMES_QUANTILE, self.frames_ms.iter().copied().collect()).unwrap_or(0.0)
+        self.interface_ms
     }
 
     /// The rate of a kind by the present arithmetic, or by one that was measured.

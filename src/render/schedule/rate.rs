@@ -178,8 +178,7 @@ impl CostHistory {
     }
 }
 
-/// Adds a measurement to a window of the last `length` ones.
-pub fn push<T>(window: &mut VecDeque<T>, length: usize, measurement: T) {
+fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurement) {
     if window.len() == length {
         window.pop_front();
     }
@@ -206,7 +205,7 @@ fn median(values: Vec<f64>) -> Option<f64> {
 }
 
 /// The value below which lies so large a part of the others; the lower one between two.
-pub fn quantile(part: f64, mut values: Vec<f64>) -> Option<f64> {
+fn quantile(part: f64, mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get((part * values.len().saturating_sub(1) as f64) as usize).copied()
 }

@@ -63,17 +63,27 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     }
 }
 
-/// The progress of an export, with a button to cancel.
-pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
-    let left = match progress.remaining_secs {
+/// What the button to cancel an export does.
+pub(in crate::ui) const CANCEL_HELP: &str = "Stop the export; no file is saved";
+
+/// How far an export is, in words.
+pub(in crate::ui) fn saving_text(progress: ExportProgress) -> String {
+    match progress.remaining_secs {
         Some(secs) => format!("Saving, {} left", duration_text(secs)),
         None => "Saving…".to_owned(),
-    };
+    }
+}
+
+/// The progress of an export, with a button to cancel.
+pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
     ui.horizontal(|ui| {
-        ui.label(RichText::new(left).small().color(theme::TEXT_DIM));
+        ui.label(RichText::new(saving_text(progress)).small().color(theme::TEXT_DIM));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let cancel = ui.button("Cancel").help("Stop the export; no file is saved");
-            cx.rects.record("cancel export", &cancel);
+            let cancel = ui.button("Cancel").help(CANCEL_HELP);
+            // Scrolled out of sight, it is shown over the view as well.
+            if ui.clip_rect().contains(cancel.rect.center()) {
+                cx.rects.record("cancel export", &cancel);
+            }
             if cancel.clicked() {
                 cx.actions.push(Action::CancelExport);
             }

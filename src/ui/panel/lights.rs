@@ -8,7 +8,9 @@ use super::{
     light, rig,
 };
 use crate::{
-    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow, param},
+    scene::{
+        Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, RigKind, Scene, follow, param,
+    },
     ui::{
         light_handles::is_used_by_keyboard,
         selection::{LightRef, Selection},
@@ -18,6 +20,8 @@ use crate::{
     },
 };
 
+/// Diameter of the key light's ball, in points.
+const KEY_BALL: f32 = 84.0;
 /// Number of lights that the list shows without scrolling.
 const MAX_SHOWN_ROWS: f32 = 6.0;
 /// Gap between the list's rows, in points.
@@ -42,40 +46,55 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record("exposure", &response);
 }
 
-/// The direction and colour of the selected light, or of the first.
+/// The direction and colour of the selected light, of the first, or of the sky's sun where there is no other.
 fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
     let key = match cx.selection.light {
         Some(LightRef::Environment(index)) => index,
         _ => 0,
     };
-    if let Some(light) = cx.scene.lights.environment.get_mut(key) {
-        let camera = &cx.scene.camera;
-        ui.horizontal(|ui| {
-            let response = light::direction_ball(ui, "Key light direction", 84.0, light, camera);
-            cx.rects.record("key light ball", &response);
-            ui.vertical(|ui| {
-                // egui lets a text be half a point wider than its column.
-                ui.set_max_width((ui.available_width() - 0.5).max(0.0));
-                ui.add_space(4.0);
-                ui.label(
-                    RichText::new(format!(
-                        "Drag the dot to move {}.",
-                        LightRef::Environment(key).name().to_lowercase()
-                    ))
-                    .color(theme::TEXT_DIM),
-                );
-                ui.add_space(4.0);
-                color(ui, "Key light colour", "The colour of this light", &mut light.color);
-                ui.add_space(4.0);
-                let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle");
-                cx.rects.record("light a place", &response);
-                if response.clicked() {
-                    cx.selection.light = Some(LightRef::Environment(key));
-                    cx.commands.push(Command::LightPlace);
+    let Scene { camera, lights, .. } = &mut *cx.scene;
+    let has_light = key < lights.environment.len();
+    let has_sun = lights.rig.kind == RigKind::Sky;
+    ui.horizontal(|ui| {
+        let name = "Key light direction";
+        let ball = match lights.environment.get_mut(key) {
+            Some(light) => Some(light::direction_ball(ui, name, KEY_BALL, light, camera)),
+            None if has_sun => Some(rig::sun_ball(ui, name, KEY_BALL, &mut lights.rig, camera)),
+            None => None,
+        };
+        if let Some(response) = &ball {
+            cx.rects.record("key light ball", response);
+        }
+        ui.vertical(|ui| {
+            // egui lets a text be half a point wider than its column.
+            ui.set_max_width((ui.available_width() - 0.5).max(0.0));
+            ui.add_space(4.0);
+            let what = match ball {
+                Some(_) if has_light => {
+                    let light = LightRef::Environment(key).name().to_lowercase();
+                    format!("Drag the dot to move {light}.")
                 }
-            });
+                Some(_) => "Drag the dot to move the sun.".to_owned(),
+                None => "No light shines from a direction.".to_owned(),
+            };
+            ui.label(RichText::new(what).color(theme::TEXT_DIM));
+            ui.add_space(4.0);
+            let light_color = match lights.environment.get_mut(key) {
+                Some(light) => Some(&mut light.color),
+                None => has_sun.then_some(&mut lights.rig.sky.sun_color),
+            };
+            if let Some(value) = light_color {
+                color(ui, "Key light colour", "The colour of this light", value);
+                ui.add_space(4.0);
+            }
+            let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place, or a first one comes (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle");
+            cx.rects.record("light a place", &response);
+            if response.clicked() {
+                cx.selection.light = has_light.then_some(LightRef::Environment(key)).or(cx.selection.light);
+                cx.commands.push(Command::LightPlace);
+            }
         });
-    }
+    });
 }
 
 /// Shows and edits the lights as they shine in this view, which may have turned toward it.

@@ -120,17 +120,29 @@ fn is_named(rig: &Rig, environment_map: &EnvironmentMap) -> bool {
     rig.environment_map.name == environment_map.name()
 }
 
+/// The ball that edits the direction of the sky's sun; `name` is for screen readers.
+pub(super) fn sun_ball(
+    ui: &mut Ui,
+    name: &str,
+    diameter: f32,
+    rig: &mut Rig,
+    camera: &Camera,
+) -> Response {
+    let mut toward = rig.frame.to_view(rig.sky.sun_direction, camera);
+    let response = ball(ui, name, diameter, rig.sky.sun_color, &mut toward);
+    if response.changed() {
+        rig.sky.sun_direction = rig.frame.from_view(toward, camera);
+    }
+    response
+}
+
 fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
     let camera = &cx.scene.camera;
     let rig = &mut cx.scene.lights.rig;
     ui.horizontal(|ui| {
-        let sky = &mut rig.sky;
-        let mut toward = rig.frame.to_view(sky.sun_direction, camera);
-        let response = ball(ui, "Sun direction", 112.0, sky.sun_color, &mut toward);
-        if response.changed() {
-            sky.sun_direction = rig.frame.from_view(toward, camera);
-        }
+        let response = sun_ball(ui, "Sun direction", 112.0, rig, camera);
         cx.rects.record("sun ball", &response);
+        let sky = &mut rig.sky;
         ui.vertical(|ui| {
             let mut row = |name: &str, hover: &str, value: &mut [f32; 3]| {
                 ui.horizontal(|ui| {
