@@ -143,7 +143,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
                 // A formula that was named later may have a vector of another length.
                 return Err(match fractal.get(field.name) {
                     Some(Value::Vector(own)) => A::Error::custom(format_args!(
-                        "field `{}`: invalid length {length}, expected an array of length {}",
+                        "field `{}`: found a list of {length}, expected a list of {}",
                         field.name,
                         own.len()
                     )),

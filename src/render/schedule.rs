@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
-//! | `frames` | when a frame of the interface is measured |
+//! | `interface_frames` | when a frame of the interface is measured |
 //! | `progress` | how much of the picture has been computed |
 //! | `cost`, `rate` | estimates of what work takes |
 //! | `plan` | what an integrator says of its work |
@@ -22,8 +22,8 @@ use super::{lattice::COARSEST, region::Overlap};
 mod adaptation;
 mod completion;
 mod cost;
-mod frames;
 mod gbuffer_validity;
+mod interface_frames;
 mod plan;
 mod point_selection;
 mod progress;
@@ -34,8 +34,8 @@ mod work;
 use adaptation::Adaptation;
 use completion::{InFlight, Piece};
 use cost::Cost;
-use frames::Frames;
 pub use gbuffer_validity::GBufferValidity;
+use interface_frames::InterfaceFrames;
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
 use progress::Progress;
@@ -103,7 +103,7 @@ pub struct Schedule {
     /// Movement of auto exposure.
     adaptation: Adaptation,
     in_flight: InFlight,
-    frames: Frames,
+    interface_frames: InterfaceFrames,
     /// Number of refining pieces so far, modulo 2³².
     pieces: u32,
     cost: Cost,
@@ -127,7 +127,7 @@ impl Schedule {
             shown_at: f64::NEG_INFINITY,
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
-            frames: Frames::default(),
+            interface_frames: InterfaceFrames::default(),
             pieces: 0,
             cost: Cost::new(plan),
         }
@@ -269,7 +269,7 @@ impl Schedule {
     pub fn change(&mut self, stale: Stale, moving: bool, now_secs: f64) {
         self.moving = moving;
         self.changed_at = now_secs;
-        self.frames.release();
+        self.interface_frames.release();
         // A jump that was never shown stays one.
         self.is_jump = (stale == Stale::Geometry && !moving) || (self.is_jump && self.opening);
         self.restart(stale);
@@ -298,6 +298,7 @@ impl Schedule {
         if self.pace == Pace::Interactive {
             self.cost.forget_paths();
         }
+        self.interface_frames.release();
         self.is_converged = false;
         self.is_display_stale = false;
         self.opening = true;
@@ -305,10 +306,10 @@ impl Schedule {
 
     /// The next piece of work at `now_secs`.
     ///
-    /// None where enough is in flight, where the last picture of a movement has been shown, or
-    /// where all is done.
+    /// None where enough is in flight, where the last picture of a movement has been shown, while a frame of the
+    /// interface is measured, or where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        if self.in_flight.len() >= MAX_IN_FLIGHT || self.frames.hold_work() {
+        if self.in_flight.len() >= MAX_IN_FLIGHT || self.interface_frames.is_holding(now_secs) {
             return None;
         }
         let phase = self.phase();
@@ -326,7 +327,7 @@ impl Schedule {
     /// `finished`: the pieces that [`Self::next`] returned, and frames of the interface (none), in
     /// order, each with the GPU time since the one before it ended, milliseconds.
     pub fn collect(&mut self, finished: &[(Option<Work>, f64)]) {
-        self.in_flight.collect(finished, &mut self.frames, &mut self.cost);
+        self.in_flight.collect(finished, &mut self.interface_frames, &mut self.cost);
     }
 
     /// What the next piece of work is for.

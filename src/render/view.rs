@@ -171,23 +171,18 @@ impl View {
 
     /// Notes that the interface has just submitted its drawing of a frame.
     ///
-    /// This time is no part of a picture's cost; it decides how often an unfinished picture is shown.
-    pub fn time_frame(&mut self) {
-        self.schedule.note_frame();
+    /// This time is no part of a picture's cost; it decides how often an unfinished picture is shown. `is_only_work`:
+    /// nothing but this view's work and the interface use the GPU.
+    pub fn time_frame(&mut self, is_only_work: bool, now_secs: f64) {
+        self.schedule.frame_submitted(is_only_work, now_secs);
         self.stopwatch.note(&self.pipelines.gpu, None);
     }
 
-    /// Makes way for a frame of the interface that reports progress. Returns whether it may be drawn now.
+    /// Requests a frame of the interface that reports progress. Returns whether it may be drawn now.
     ///
-    /// To measure it, work in flight ends first, and no other is submitted until the frame has ended:
-    /// [`Self::end_wait_for_frame`] ends the wait for a frame that does not come.
-    pub fn make_way_for_frame(&mut self, now_secs: f64) -> bool {
-        self.schedule.make_way_for_frame(now_secs)
-    }
-
-    /// Submits work again although no frame of the interface came.
-    pub fn end_wait_for_frame(&mut self) {
-        self.schedule.end_wait_for_frame();
+    /// To measure one, work in flight ends first. Call it while the view is pumped: it then learns what has ended.
+    pub fn request_frame(&mut self, now_secs: f64) -> bool {
+        self.schedule.request_frame(now_secs)
     }
 
     /// Sets the loaded environment map; a scene that names it and has it as background shows it.

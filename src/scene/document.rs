@@ -29,6 +29,7 @@ mod keys;
 pub mod limits;
 mod parse;
 mod parts;
+mod words;
 
 use check::checked;
 use envelope::{Document, Header, KIND, READ, Scalar};

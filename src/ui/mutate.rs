@@ -82,9 +82,12 @@ impl Mutate {
         self.is_open
     }
 
-    /// The pictures to draw: the scene itself, whose kernels are compiled, then its variations.
+    /// The pictures to draw: the scene itself, with which all others are compared, then its variations.
+    ///
+    /// None before the scene's own is made: variations would be drawn first.
     pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
-        let variations = self.variations.iter().enumerate();
+        let made = if self.variations.len() > MIDDLE { &self.variations[..] } else { &[] };
+        let variations = made.iter().enumerate();
         let others = variations.filter(|&(place, _)| place != MIDDLE).map(|(_, it)| it);
         self.variations.get(MIDDLE).into_iter().chain(others)
     }

@@ -1,4 +1,4 @@
-//! The shell's message over the picture, the file that is being read, and a file that is being saved out of sight.
+//! Messages over the picture: the shell's, and files that are being read or saved.
 
 use egui::{
     Align2, Color32, Margin, Rect, Response, Ui, accesskit::Role, pos2, text::LayoutJob, vec2,
@@ -53,35 +53,33 @@ pub fn show(
         rects.record("notice", &shown);
         top = shown.rect.bottom() + GAP;
     }
-    if let Some(name) = inputs.reading {
-        let text = format!("Reading {name}…");
+    let mut progress = |id: &'static str, text: &str, help: &str, rects: &mut Rects| {
         let (text_color, edge) = (Color32::WHITE, theme::LINE);
         let (role, buttons_width) = (Role::Status, CROSS_WIDTH);
-        let message =
-            Message { id: "reading", role, text: &text, text_color, edge, top, buttons_width };
-        let shown = message.show(ui, view, |ui| {
-            if icon_button(ui, Icon::Cross, "Cancel", "Stop reading this file").clicked() {
-                actions.push(Action::CancelReading);
-            }
-        });
-        rects.record("reading", &shown);
+        let message = Message { id, role, text, text_color, edge, top, buttons_width };
+        let mut cancel = None;
+        let shown = message
+            .show(ui, view, |ui| cancel = Some(icon_button(ui, Icon::Cross, "Cancel", help)));
+        rects.record(id, &shown);
         top = shown.rect.bottom() + GAP;
+        cancel
+    };
+    if let Some(name) = inputs.reading {
+        let cancel =
+            progress("reading", &format!("Reading {name}…"), "Stop reading this file", rects);
+        if cancel.is_some_and(|cancel| cancel.clicked()) {
+            actions.push(Action::CancelReading);
+        }
     }
-    // Where neither the panel nor the timeline shows it.
-    if let Some(progress) = inputs.export.filter(|_| rects.get("cancel export").is_none()) {
-        let text = panel::saving_text(progress);
-        let (text_color, edge) = (Color32::WHITE, theme::LINE);
-        let (role, buttons_width) = (Role::Status, CROSS_WIDTH);
-        let message =
-            Message { id: "saving", role, text: &text, text_color, edge, top, buttons_width };
-        let shown = message.show(ui, view, |ui| {
-            let cancel = icon_button(ui, Icon::Cross, "Cancel", panel::CANCEL_HELP);
+    // Where neither the panel nor the timeline, which are drawn before, shows it.
+    if let Some(export) = inputs.export.filter(|_| rects.get("cancel export").is_none()) {
+        let cancel = progress("saving", &panel::saving_text(export), panel::CANCEL_HELP, rects);
+        if let Some(cancel) = cancel {
             rects.record("cancel export", &cancel);
             if cancel.clicked() {
                 actions.push(Action::CancelExport);
             }
-        });
-        rects.record("saving", &shown);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The page's GPU work, which continues between frames of the interface.
 //!
 //! In: the session's scene and view size, once a frame. Out: pictures, exports, and repaint requests
-//! when something new is visible. A timer drives the work, so that slow frames don't idle the GPU and
+//! when something new is visible. A timer drives the work, so that the GPU works between slow frames and
 //! refinement doesn't redraw the panels. A hidden page draws no frames: there, each finished piece
 //! of work starts the next.
 
@@ -33,7 +33,7 @@ const TICK_MS: i32 = 4;
 /// Shortest seconds between repaints that show only new numbers; longer where frames take longer.
 const REPORT_EVERY_SECS: f64 = 0.2;
 
-/// When a requested frame is drawn: at once, but egui draws two for a request without a delay.
+/// Delay of a requested frame: above zero, because egui draws two frames for a request without one.
 const FRAME_DELAY: Duration = Duration::from_millis(1);
 
 /// Frames until a new activity is on the screen. Compilation waits for that, to be announced first.
@@ -60,8 +60,12 @@ pub struct Engine {
     shown_activity: Activity,
     /// Repaints still to request for that activity.
     frames_due: u32,
-    /// Whether a frame is to be drawn as soon as the view makes way.
+    /// Whether a frame is to be drawn as soon as the view allows one.
     is_frame_due: bool,
+    /// The report's number of pictures when the last frame was painted.
+    pictures_drawn: u64,
+    /// Whether the last step left work.
+    was_busy: bool,
     /// Whether the last step was the view's, and no export's or small picture's.
     is_view_drawn: bool,
     repainted_at_secs: f64,
@@ -94,6 +98,8 @@ impl Engine {
             shown_activity: Activity::Idle,
             frames_due: 0,
             is_frame_due: false,
+            pictures_drawn: 0,
+            was_busy: false,
             is_view_drawn: false,
             repainted_at_secs: 0.0,
             errors_shown: 0,
@@ -165,6 +171,9 @@ impl Engine {
     /// next call is due, if that is known.
     pub fn update(&mut self, session: &mut Session) -> Option<f64> {
         let now_secs = page::now_secs();
+        self.view.free_discarded();
+        self.pictures_drawn = session.status.report.pictures;
+        self.is_frame_due = false;
         self.exporter.start_requested_sequence(session);
         let scale = session.update_safe_mode().scale();
         let interface = &session.interface;
@@ -177,9 +186,14 @@ impl Engine {
         self.small_pictures.want(interface.small_pictures());
         self.small_pictures.set_environment_map(interface.environment_map());
         self.small_pictures.note_frame();
-        if self.step(session, now_secs) {
+        let busy = self.step(session, now_secs);
+        if busy {
             self.schedule_tick();
+        } else if self.was_busy {
+            // This frame was painted before its last picture was there.
+            self.context.request_repaint_after(FRAME_DELAY);
         }
+        self.was_busy = busy;
         self.has_drawn = true;
         self.frames_due = self.frames_due.saturating_sub(1);
         settling_secs
@@ -255,21 +269,18 @@ impl Engine {
     }
 
     /// Requests a repaint where something new is to be shown.
-    fn request_repaint(&mut self, pictures_before: u64, busy: bool, report: &Report) {
+    fn request_repaint(&mut self, busy: bool, report: &Report) {
         let now_secs = page::now_secs();
-        if page::is_hidden() {
-            self.view.end_wait_for_frame();
-        }
         if report.activity != self.shown_activity {
             self.shown_activity = report.activity.clone();
             self.frames_due = FRAMES_PER_ACTIVITY;
         }
-        let is_new = report.pictures != pictures_before || self.frames_due > 0 || !busy;
+        let is_new = report.pictures != self.pictures_drawn || self.frames_due > 0 || !busy;
         let report_every_secs = REPORT_EVERY_SECS.max(report.frame_interval_secs);
         self.is_frame_due |= is_new || now_secs - self.repainted_at_secs > report_every_secs;
         // While the view does not draw, it does not learn what has ended either.
-        let may_wait = self.is_view_drawn && busy && !page::is_hidden();
-        if self.is_frame_due && (!may_wait || self.view.make_way_for_frame(now_secs)) {
+        let may_wait = self.is_view_drawn && busy;
+        if self.is_frame_due && (!may_wait || self.view.request_frame(now_secs)) {
             self.is_frame_due = false;
             self.repainted_at_secs = now_secs;
             self.context.request_repaint_after(FRAME_DELAY);
@@ -295,11 +306,12 @@ fn tick() {
     engine.is_tick_scheduled = false;
     // Timed before this tick submits work, which would be counted as the frame's.
     if std::mem::take(&mut engine.has_drawn) {
-        engine.view.time_frame();
+        let is_only_work = engine.is_view_drawn;
+        engine.view.time_frame(is_only_work, page::now_secs());
     }
-    let pictures_before = session.status.report.pictures;
     let busy = engine.step(&mut session, page::now_secs());
-    engine.request_repaint(pictures_before, busy, &session.status.report);
+    engine.request_repaint(busy, &session.status.report);
+    engine.was_busy = busy;
     if busy {
         engine.schedule_tick();
     }

@@ -27,6 +27,8 @@ pub struct LiveView {
     view: Option<View>,
     shown: Option<Shown>,
     kept: Option<Kept>,
+    /// Textures that the interface may have to paint once more.
+    discarded: Vec<egui::TextureId>,
     /// A new size that has not settled, and since when.
     pending_region: Option<(Region, f64)>,
 }
@@ -58,6 +60,7 @@ impl LiveView {
             view: None,
             shown: None,
             kept: None,
+            discarded: Vec::new(),
             pending_region: None,
         }
     }
@@ -174,8 +177,14 @@ impl LiveView {
         };
         // Without a newer picture, the screen still shows this one.
         if self.shown.is_none_or(|shown| shown.generation != generation) {
-            self.render_state.renderer.write().free_texture(&picture.texture);
+            self.discarded.push(picture.texture);
         }
+    }
+
+    /// Frees the textures that the frame before needed: call it between two frames' drawing.
+    pub fn free_discarded(&mut self) {
+        let mut renderer = self.render_state.renderer.write();
+        self.discarded.drain(..).for_each(|texture| renderer.free_texture(&texture));
     }
 
     /// Removes the kept picture once the newest one has as many samples, or is finished.
@@ -205,23 +214,17 @@ impl LiveView {
         }
     }
 
-    /// Notes that the interface has just submitted its drawing of a frame.
-    pub fn time_frame(&mut self) {
+    /// Notes that the interface has just submitted its drawing of a frame. `is_only_work`: nothing but the view's work and
+    /// the interface use the GPU.
+    pub fn time_frame(&mut self, is_only_work: bool, now_secs: f64) {
         if let Some(view) = &mut self.view {
-            view.time_frame();
+            view.time_frame(is_only_work, now_secs);
         }
     }
 
-    /// Makes way for a frame of the interface that reports progress. Returns whether it may be drawn now.
-    pub fn make_way_for_frame(&mut self, now_secs: f64) -> bool {
-        self.view.as_mut().is_none_or(|view| view.make_way_for_frame(now_secs))
-    }
-
-    /// Submits work again although no frame of the interface came.
-    pub fn end_wait_for_frame(&mut self) {
-        if let Some(view) = &mut self.view {
-            view.end_wait_for_frame();
-        }
+    /// Requests a frame of the interface that reports progress. Returns whether it may be drawn now.
+    pub fn request_frame(&mut self, now_secs: f64) -> bool {
+        self.view.as_mut().is_none_or(|view| view.request_frame(now_secs))
     }
 
     /// Turns the film's histogram in the report on or off.
@@ -279,6 +282,7 @@ impl LiveView {
 impl Drop for LiveView {
     fn drop(&mut self) {
         self.drop_kept();
+        self.free_discarded();
         if let Some(shown) = &self.shown {
             self.render_state.renderer.write().free_texture(&shown.picture.texture);
         }

@@ -52,7 +52,6 @@ impl TestHook {
         set(&object, "pixelsPerSample", report.pixels_per_sample);
         set(&object, "elapsedSecs", report.elapsed_secs);
         set(&object, "frameMs", report.frame_ms);
-        set(&object, "frameIntervalSecs", report.frame_interval_secs);
         set(&object, "anchorMs", report.anchor_ms);
         set(&object, "zoom", zoom(&session.interface.scene().camera));
         set(&object, "dispatches", status.dispatches as f64);

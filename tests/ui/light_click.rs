@@ -54,6 +54,20 @@ fn the_button_waits_for_one_click() {
     assert_eq!(undo_all(&mut harness), 1);
 }
 
+/// Without any light the key light has no ball, but there is a way to a first light.
+#[test]
+fn a_dark_scene_gets_a_light_by_a_click() {
+    let mut dark = Scene::default();
+    dark.lights.environment.clear();
+    let mut harness = lit(dark);
+    harness.get_by_label("This scene has no key light.");
+    assert!(harness.state().interface.rects().get("key light ball").is_none());
+    press_light_a_place(&mut harness);
+    click(&mut harness, SURFACE, Modifiers::NONE);
+    assert_eq!(scene(&harness).lights.environment.len(), 1);
+    harness.get_by_label("Drag the dot to move light 1.");
+}
+
 #[test]
 fn enter_in_the_view_lights_its_middle() {
     let mut pointed = lit(Scene::default());

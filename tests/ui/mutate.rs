@@ -14,6 +14,13 @@ fn a_variation_becomes_the_scene_by_a_click_and_locks_hold() {
     let start = presets::opening();
     let mut harness = stage(start.clone(), Settings::default(), [1280.0, 720.0]);
     harness.key_press(Key::M);
+    harness.step();
+    harness.step();
+    assert_eq!(
+        harness.state().interface.small_pictures().count(),
+        0,
+        "the scene's own is not made"
+    );
     harness.run_steps(20);
     let small: Vec<_> = harness.state().interface.small_pictures().cloned().collect();
     assert_eq!(small.len(), 9);

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 use super::{
     cost::Cost,
-    frames::Frames,
+    interface_frames::InterfaceFrames,
     types::{Arithmetic, Phase},
     work::{Trace, Work},
 };
@@ -37,22 +37,19 @@ pub struct InFlight {
     are_merged: bool,
 }
 
-/// A piece or a frame of the interface that has finished.
+/// A piece that has finished.
 #[derive(Clone, Copy)]
 struct Completion {
-    /// The piece; none for a frame of the interface.
-    work: Option<(Work, Piece)>,
-    /// Whether it is a frame of the interface that had the GPU to itself.
-    is_frame_alone: bool,
+    work: Work,
+    piece: Piece,
     /// GPU time since the completion before it, milliseconds.
     busy_ms: f64,
-    expected_ms: f64,
 }
 
 impl Completion {
     /// Whether it arrived together with the completion before it.
     fn is_merged(&self) -> bool {
-        self.busy_ms < MERGED_SHARE * self.expected_ms
+        self.busy_ms < MERGED_SHARE * self.piece.expected_ms
     }
 }
 
@@ -82,27 +79,27 @@ impl InFlight {
         self.are_merged
     }
 
-    /// Removes finished pieces and learns their costs. `finished`: pieces and frames of the interface
-    /// (none), in order, each with the GPU time since the completion before it, milliseconds.
+    /// Removes finished pieces and frames, and learns what they cost.
+    ///
+    /// `finished`: pieces and frames of the interface (none), in order, each with the GPU time since the completion before
+    /// it, milliseconds. Beside pieces, a frame's own time is not what it took: only frames alone are learned from.
     pub fn collect(
         &mut self,
         finished: &[(Option<Work>, f64)],
-        frames: &mut Frames,
+        frames: &mut InterfaceFrames,
         cost: &mut Cost,
     ) {
         let mut completions = Vec::new();
         for &(work, busy_ms) in finished {
-            let work = match work {
-                // A piece that was never in flight has no estimate to compare with.
-                Some(work) => {
-                    let Some(piece) = self.pieces.pop_front() else { continue };
-                    Some((work, piece))
+            let Some(work) = work else {
+                if frames.ended() {
+                    cost.interface_drawn(busy_ms);
                 }
-                None => None,
+                continue;
             };
-            let expected_ms = work.map_or(cost.interface_ms(), |(_, piece)| piece.expected_ms);
-            let is_frame_alone = work.is_none() && frames.ended();
-            completions.push(Completion { work, is_frame_alone, busy_ms, expected_ms });
+            // A piece that was never in flight has no estimate to compare with.
+            let Some(piece) = self.pieces.pop_front() else { continue };
+            completions.push(Completion { work, piece, busy_ms });
         }
         for group in completions.chunk_by(|_, next| next.is_merged()) {
             self.are_merged |= group.len() > 1;
@@ -114,18 +111,18 @@ impl InFlight {
 /// Learns from completions that arrived together.
 fn learn(cost: &mut Cost, group: &[Completion]) {
     let sum = |value: fn(&Completion) -> f64| group.iter().map(value).sum::<f64>();
-    let (busy_ms, expected_ms) = (sum(|it| it.busy_ms), sum(|it| it.expected_ms));
+    let (busy_ms, expected_ms) = (sum(|it| it.busy_ms), sum(|it| it.piece.expected_ms));
     // Kinds of work share the time in proportion to their estimates.
     let took_ms = |completion: &Completion| match group {
         [_] => busy_ms,
-        _ => busy_ms * completion.expected_ms / expected_ms,
+        _ => busy_ms * completion.piece.expected_ms / expected_ms,
     };
     // Traces share theirs equally, as if of one size: shares by estimate would only confirm it.
     let traces: Vec<(Trace, Piece, f64)> = group
         .iter()
         .filter_map(|completion| match completion.work {
-            Some((Work::Trace(trace), piece)) => Some((trace, piece, took_ms(completion))),
-            _ => None,
+            Work::Trace(trace) => Some((trace, completion.piece, took_ms(completion))),
+            Work::Display(_) => None,
         })
         .collect();
     let mean = |values: f64| values / traces.len() as f64;
@@ -134,11 +131,7 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
     for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
         cost.traced(trace.job(), *phase, *arithmetic, samples, trace_ms);
     }
-    for completion in group {
-        match completion.work {
-            Some((Work::Display(_), _)) => cost.displayed(took_ms(completion)),
-            None if completion.is_frame_alone => cost.interface_drawn(took_ms(completion)),
-            None | Some((Work::Trace(_), _)) => {}
-        }
+    for completion in group.iter().filter(|it| matches!(it.work, Work::Display(_))) {
+        cost.displayed(took_ms(completion));
     }
 }

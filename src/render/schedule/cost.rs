@@ -60,6 +60,8 @@ pub struct Cost {
     /// Time of the last display alone.
     last_display_ms: f64,
     interface_ms: f64,
+    /// Time of the last measured frame of the interface alone.
+    last_frame_ms: f64,
     /// The visibility bits of the lights that have shadow rays.
     casting: u64,
 }
@@ -84,6 +86,7 @@ impl Cost {
             display_ms: 0.0,
             last_display_ms: f64::INFINITY,
             interface_ms: 0.0,
+            last_frame_ms: f64::INFINITY,
             casting: u64::MAX,
         }
     }
@@ -146,7 +149,10 @@ impl Cost {
 
     /// Learns the time of a frame of the interface that had the GPU to itself.
     pub fn interface_drawn(&mut self, busy_ms: f64) {
-        self.interface_ms = busy_ms.min(MAX_INTERFACE_MS);
+        let busy_ms = busy_ms.min(MAX_INTERFACE_MS);
+        // Frames are much alike: one that took longer than the one before it was held up.
+        self.interface_ms = busy_ms.min(self.last_frame_ms);
+        self.last_frame_ms = busy_ms;
     }
 
     /// Estimated time of a frame of the interface, milliseconds.

@@ -2,7 +2,7 @@
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 
-use super::{error::DocumentError, limits::MAX_DEPTH};
+use super::{error::DocumentError, limits::MAX_DEPTH, words};
 use crate::{
     reading::{Objects, visible},
     scene::param,
@@ -62,7 +62,7 @@ fn field_error(path: &str, error: &serde_json::Error) -> DocumentError {
         "." => "document",
         path => path.strip_prefix("scene.").unwrap_or(path),
     };
-    let mut message = message_of(error);
+    let mut message = words::plain(&message_of(error));
     // A key's scene has the same fields.
     let field = path.split_once("].scene.").map_or(path, |(_, field)| field);
     if let Some(param) = param::find(field) {
@@ -90,7 +90,7 @@ fn syntax_message(error: &serde_json::Error) -> String {
         "expected `,` or `]`" => "a comma or ] is missing",
         "expected `:`" => "a colon is missing after the name of a field",
         "trailing characters" => "there is more text after the document's end",
-        _ => return message,
+        _ => return format!("this is not JSON: {message}"),
     };
     plain.to_owned()
 }

@@ -180,7 +180,8 @@ impl Interface {
 
     /// True if a window, a message or another caption may lie where a hint would be.
     fn is_covered(&self, ctx: &egui::Context, inputs: &DisplayInputs<'_>) -> bool {
-        let has_message = inputs.notice.is_some() || inputs.reading.is_some();
+        let is_saving_shown = inputs.export.is_some() && self.rects.get("cancel export").is_none();
+        let has_message = inputs.notice.is_some() || inputs.reading.is_some() || is_saving_shown;
         let is_over_picture = self.mutate.is_open() || self.share.is_open() || self.compare.is_on();
         let is_over_window = self.help_open || self.finder.is_open();
         let has_caption = self.places.are_shown() || self.pilot.guide_status() != GuideStatus::Idle;

@@ -46,21 +46,42 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record("exposure", &response);
 }
 
-/// The direction and colour of the selected light, of the first, or of the sky's sun where there is no other.
+/// What the key light's ball moves.
+#[derive(Clone, Copy, PartialEq)]
+enum Key {
+    /// The selected directional light, or the first, by its index.
+    Light(usize),
+    /// The sky's sun, where there is no directional light.
+    Sun,
+    /// Nothing.
+    None,
+}
+
+impl Key {
+    fn of(lights: &Lights, selected: Option<LightRef>) -> Self {
+        let count = lights.environment.len();
+        match selected {
+            Some(LightRef::Environment(index)) if index < count => Self::Light(index),
+            _ if count > 0 => Self::Light(0),
+            _ if lights.rig.kind == RigKind::Sky => Self::Sun,
+            _ => Self::None,
+        }
+    }
+}
+
+/// The direction and colour of the key light.
 fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
-    let key = match cx.selection.light {
-        Some(LightRef::Environment(index)) => index,
-        _ => 0,
-    };
     let Scene { camera, lights, .. } = &mut *cx.scene;
-    let has_light = key < lights.environment.len();
-    let has_sun = lights.rig.kind == RigKind::Sky;
+    let key = Key::of(lights, cx.selection.light);
     ui.horizontal(|ui| {
         let name = "Key light direction";
-        let ball = match lights.environment.get_mut(key) {
-            Some(light) => Some(light::direction_ball(ui, name, KEY_BALL, light, camera)),
-            None if has_sun => Some(rig::sun_ball(ui, name, KEY_BALL, &mut lights.rig, camera)),
-            None => None,
+        let ball = match key {
+            Key::Light(index) => {
+                let light = &mut lights.environment[index];
+                Some(light::direction_ball(ui, name, KEY_BALL, light, camera))
+            }
+            Key::Sun => Some(rig::sun_ball(ui, name, KEY_BALL, &mut lights.rig, camera)),
+            Key::None => None,
         };
         if let Some(response) = &ball {
             cx.rects.record("key light ball", response);
@@ -69,28 +90,35 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
             // egui lets a text be half a point wider than its column.
             ui.set_max_width((ui.available_width() - 0.5).max(0.0));
             ui.add_space(4.0);
-            let what = match ball {
-                Some(_) if has_light => {
-                    let light = LightRef::Environment(key).name().to_lowercase();
-                    format!("Drag the dot to move {light}.")
+            let (what, value) = match key {
+                Key::Light(index) => {
+                    let name = LightRef::Environment(index).name().to_lowercase();
+                    let what = format!("Drag the dot to move {name}.");
+                    (what, Some(&mut lights.environment[index].color))
                 }
-                Some(_) => "Drag the dot to move the sun.".to_owned(),
-                None => "No light shines from a direction.".to_owned(),
+                Key::Sun => {
+                    let what = "Drag the dot to move the sun.".to_owned();
+                    (what, Some(&mut lights.rig.sky.sun_color))
+                }
+                Key::None => ("This scene has no key light.".to_owned(), None),
             };
             ui.label(RichText::new(what).color(theme::TEXT_DIM));
             ui.add_space(4.0);
-            let light_color = match lights.environment.get_mut(key) {
-                Some(light) => Some(&mut light.color),
-                None => has_sun.then_some(&mut lights.rig.sky.sun_color),
-            };
-            if let Some(value) = light_color {
+            if let Some(value) = value {
                 color(ui, "Key light colour", "The colour of this light", value);
                 ui.add_space(4.0);
             }
-            let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place, or a first one comes (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle");
+            let which = match key {
+                Key::Light(_) => "this light moves to where it reaches",
+                Key::Sun | Key::None if lights.point.is_empty() => "a new light shines on",
+                Key::Sun | Key::None => "a point light moves to where it reaches",
+            };
+            let response = ui.button("Light a place").help(format!("Then click the surface: {which} that place (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle"));
             cx.rects.record("light a place", &response);
             if response.clicked() {
-                cx.selection.light = has_light.then_some(LightRef::Environment(key)).or(cx.selection.light);
+                if let Key::Light(index) = key {
+                    cx.selection.light = Some(LightRef::Environment(index));
+                }
                 cx.commands.push(Command::LightPlace);
             }
         });

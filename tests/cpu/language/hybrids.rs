@@ -118,7 +118,7 @@ fn what_is_no_hybrid_is_refused_by_name() {
         (read(json!({ "formula": "mandelbox", "steps": [] })), "need the formula `hybrid`"),
         (steps(json!([])), "a hybrid has 1 to 9 steps, and this one has 0"),
         (steps(json!(vec![json!({ "formula": "rotate" }); 10])), "has more than 9 entries"),
-        (steps(json!([{ "formula": "hybrid" }])), "fractal.steps[0].formula: invalid value"),
+        (steps(json!([{ "formula": "hybrid" }])), "fractal.steps[0].formula: found the text"),
         (steps(json!([{ "scale": 2, "formula": "mandelbox" }])), "put that first"),
         (steps(json!([{ "formula": "mandelbox", "scael": 2 }])), "unknown field `scael`"),
         (

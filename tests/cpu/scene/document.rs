@@ -173,13 +173,13 @@ fn errors_name_the_field_and_say_what_is_wrong() {
         ),
         (
             json!({ "quality": { "samples": 2.5 } }),
-            "quality.samples: invalid type: floating point `2.5`, expected u32; it takes 1 to 65536, whole numbers",
+            "quality.samples: found the number `2.5`, expected a whole number; it takes 1 to 65536, whole numbers",
         ),
         (
             json!({ "fractal": { "powr": 8 } }),
             "fractal.powr: unknown field `powr`, expected one of `formula`",
         ),
-        (json!({ "fractal": { "variant": "other" } }), "fractal.variant: unknown variant `other`"),
+        (json!({ "fractal": { "variant": "other" } }), "fractal.variant: unknown word `other`"),
         (json!({ "haze": {} }), "haze: unknown field `haze`"),
         (
             json!({ "fractal": { "power": 16, "bailout": 16 } }),

@@ -85,7 +85,7 @@ fn errors_in_a_path_name_the_key() {
         (json!([{}]), "path.keys[0]: missing field `time_secs`"),
         (
             json!([{ "time_secs": 0, "easing": "bounce" }]),
-            "path.keys[0].easing: unknown variant `bounce`",
+            "path.keys[0].easing: unknown word `bounce`",
         ),
         (
             json!([{ "time_secs": 0, "scene": { "fractal": { "power": 40 } } }]),
@@ -93,7 +93,7 @@ fn errors_in_a_path_name_the_key() {
         ),
         (
             json!([{ "time_secs": 0, "scene": { "quality": { "samples": 0.5 } } }]),
-            "path.keys[0].scene.quality.samples: invalid type: floating point `0.5`, expected u32; it takes 1 to 65536",
+            "path.keys[0].scene.quality.samples: found the number `0.5`, expected a whole number; it takes 1 to 65536",
         ),
         (
             json!([{ "time_secs": 0, "scene": { "haze": {} } }]),

@@ -80,8 +80,8 @@ fn displays(interface_ms: f64) -> (usize, f64) {
     let (mut now, mut displays) = (0.0, 0);
     run(&mut schedule, &mut device, &mut now, 400_000, |s, now, new| {
         displays += new;
-        if s.make_way_for_frame(now) {
-            s.note_frame();
+        if s.request_frame(now) {
+            s.frame_submitted(true, now);
             s.collect(&[(None, interface_ms)]);
         }
         s.status(now).idle
@@ -98,14 +98,13 @@ fn a_slow_interface_is_not_drawn_often() {
     assert!((seldom as f64) < secs / 1.5 + 4.0, "{seldom} displays in {secs} s");
 }
 
-/// Browsers count most of a frame of the interface as the piece before or after it, unless the frame is alone.
-#[test]
-fn a_slow_frame_is_told_from_the_pieces_beside_it() {
+/// Browsers count `hidden` of a frame of the interface as the piece before or after it, unless the frame is alone.
+fn frame_time_is_separated_from_pieces_where(hidden: f64, is_after: bool) {
     const FRAME_MS: f64 = 180.0;
     let mut device = Device::new(20.0, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 64);
-    let (mut now, mut drawn_at, mut frames, mut owed_ms) = (0.0_f64, 0.0, 0, 0.0);
+    let (mut now, mut drawn_at, mut frames, mut owed_ms) = (0.0_f64, 0.0, 0_u32, 0.0);
     let (mut is_due, mut waits) = (false, 0);
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
@@ -113,33 +112,42 @@ fn a_slow_frame_is_told_from_the_pieces_beside_it() {
         }
         let ended = (!device.queue.is_empty()).then(|| device.queue.remove(0));
         let is_display = matches!(ended, Some((Work::Display(_), ..)));
+        is_due |= is_display || now - drawn_at > schedule.frame_interval_secs().max(0.2);
+        let may_draw = is_due && schedule.request_frame(now);
+        waits += u32::from(is_due && !may_draw && schedule.interface_frames.is_holding(now));
+        let is_alone = ended.is_none() && schedule.in_flight.is_empty();
+        let hidden_ms = if may_draw && !is_alone { hidden * FRAME_MS } else { 0.0 };
         match ended {
             Some((work, end, ms)) => {
                 now = now.max(end);
-                schedule.collect(&[(Some(work), ms + std::mem::take(&mut owed_ms))]);
+                let before_ms = if is_after { 0.0 } else { hidden_ms };
+                schedule.collect(&[(Some(work), ms + before_ms + std::mem::take(&mut owed_ms))]);
             }
             None => now += 1e-3,
         }
-        is_due |= is_display || now - drawn_at > schedule.frame_interval_secs().max(0.2);
-        if !is_due {
-            continue;
+        if may_draw {
+            schedule.frame_submitted(true, now);
+            now += FRAME_MS * 1e-3;
+            (drawn_at, frames, is_due) = (now, frames + 1, false);
+            schedule.collect(&[(None, FRAME_MS - hidden_ms)]);
+            owed_ms = if is_after { hidden_ms } else { 0.0 };
         }
-        if !schedule.make_way_for_frame(now) {
-            waits += 1;
-            continue;
-        }
-        let is_alone = schedule.in_flight.is_empty();
-        schedule.note_frame();
-        now += FRAME_MS * 1e-3;
-        (drawn_at, frames, is_due) = (now, frames + 1, false);
-        let rest_ms = if is_alone { 0.0 } else { 0.9 * FRAME_MS };
-        schedule.collect(&[(None, FRAME_MS - rest_ms)]);
-        owed_ms = rest_ms;
     }
     let part = f64::from(frames) * FRAME_MS * 1e-3 / now;
     assert!(part < 0.2, "frames of the interface take {part} of {now} s");
     assert!(device.longest_ms < 25.0, "{} ms", device.longest_ms);
-    assert!(waits > 0 && waits <= frames, "{waits} waits for {frames} frames");
+    // Two pieces in flight are waited for, once in seventeen frames and twice at first.
+    let most = 2 * MAX_IN_FLIGHT as u32 * (2 + frames / 16);
+    assert!(waits > 0 && waits <= most, "{waits} waits for {frames} frames");
+}
+
+#[test]
+fn frame_time_is_separated_from_pieces() {
+    for hidden in [0.9, 0.97] {
+        for is_after in [false, true] {
+            frame_time_is_separated_from_pieces_where(hidden, is_after);
+        }
+    }
 }
 
 /// A picture under way, and a frame that is due to be measured.
@@ -148,10 +156,10 @@ fn waiting_for_a_frame() -> Schedule {
     schedule.aim(16.0, 64);
     show_opening(&mut schedule);
     let work = schedule.next(1.0).expect("a piece");
-    assert!(!schedule.make_way_for_frame(1.0), "a piece is in flight");
+    assert!(!schedule.request_frame(1.0), "a piece is in flight");
     assert_eq!(schedule.next(1.0), None);
     schedule.collect(&[(Some(work), 5.0)]);
-    assert!(schedule.make_way_for_frame(1.0));
+    assert!(schedule.request_frame(1.0));
     assert_eq!(schedule.next(1.0), None);
     schedule
 }
@@ -166,37 +174,49 @@ fn show_opening(schedule: &mut Schedule) {
 #[test]
 fn work_goes_on_after_a_measured_frame() {
     let mut schedule = waiting_for_a_frame();
-    schedule.note_frame();
+    schedule.frame_submitted(true, 1.0);
+    assert!(!schedule.request_frame(1.0), "one at a time");
+    // The pointer's frame is not measured, though no piece is in flight yet.
+    schedule.frame_submitted(true, 1.0);
     assert_eq!(schedule.next(1.0), None);
     schedule.collect(&[(None, 50.0)]);
-    assert_eq!(schedule.frame_interval_secs(), 0.5);
-    assert!(schedule.next(1.0).is_some());
-    assert!(schedule.make_way_for_frame(1.0), "the next frames are not measured");
+    assert!((schedule.frame_interval_secs() - 0.5).abs() < 1e-9);
+    let work = schedule.next(1.0);
+    assert!(work.is_some());
+    schedule.collect(&[(work, 55.0), (None, 0.5)]);
+    assert!((schedule.frame_interval_secs() - 0.5).abs() < 1e-9);
 }
 
 #[test]
-fn work_goes_on_if_the_view_changes_or_no_frame_comes() {
+fn work_does_not_wait_for_a_frame_that_does_not_come() {
+    let mut hidden = waiting_for_a_frame();
+    assert_eq!(hidden.next(1.5), None);
+    assert!(hidden.next(2.5).is_some(), "a second later");
+    // Nor in another picture.
     let mut changed = waiting_for_a_frame();
-    changed.note_frame();
+    changed.frame_submitted(true, 1.0);
     changed.change(Stale::Geometry, true, 1.0);
     let work = changed.next(1.0);
     assert!(work.is_some());
-    // The frame was not alone to its end.
     changed.collect(&[(None, 50.0), (work, 5.0)]);
-    assert_eq!(changed.frame_interval_secs(), 0.0);
-    let mut hidden = waiting_for_a_frame();
-    hidden.end_wait_for_frame();
-    assert!(hidden.next(1.0).is_some());
+    assert_eq!(changed.frame_interval_secs(), 0.0, "it was not alone to its end");
+    let mut resized = waiting_for_a_frame();
+    resized.resize([640, 360], None, 0);
+    assert!(resized.next(1.0).is_some());
 }
 
 #[test]
 fn a_stalled_interface_does_not_delay_displays() {
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     show_opening(&mut schedule);
-    assert!(schedule.make_way_for_frame(1.0));
-    schedule.note_frame();
-    schedule.collect(&[(None, 60_000.0)]);
-    assert_eq!(schedule.frame_interval_secs(), 2.0);
+    let mut measure = |ms| {
+        assert!(schedule.request_frame(1.0));
+        schedule.frame_submitted(true, 1.0);
+        schedule.collect(&[(None, ms)]);
+        schedule.frame_interval_secs()
+    };
+    assert!(measure(60_000.0) <= 2.0);
+    assert!(measure(2.0) < 0.1, "the stall is forgotten");
 }
 
 /// Some browsers report two pieces when the second one ends. Pieces of any size seem to take the same

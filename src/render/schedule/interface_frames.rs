@@ -1,0 +1,91 @@
+//! Times of the interface's frames: now and then a frame has the GPU to itself.
+//!
+//! Beside pieces of work a frame cannot be measured: browsers count most of its time as the piece before or after it.
+
+use std::collections::VecDeque;
+
+use super::{Schedule, types::Pace};
+
+/// Frames between two measured ones.
+const FRAMES_BETWEEN: u32 = 16;
+
+/// Frames that are measured at first: one can be held up.
+const FIRST_MEASURED: u32 = 2;
+
+/// Longest time that work waits for a frame, seconds: a page out of sight draws none.
+const MAX_HOLD_SECS: f64 = 1.0;
+
+/// The interface's frames in flight, and whether work waits for one.
+#[derive(Clone, Debug, Default)]
+pub struct InterfaceFrames {
+    /// Since when no work is handed out; none while work goes on.
+    held_since_secs: Option<f64>,
+    /// For each frame that has not ended, oldest first: whether it has the GPU to itself.
+    in_flight: VecDeque<bool>,
+    /// Number of measured frames.
+    measured: u32,
+    /// Frames since the last measured one.
+    since_measured: u32,
+}
+
+impl InterfaceFrames {
+    /// Whether work waits for a frame at `now_secs`.
+    pub fn is_holding(&self, now_secs: f64) -> bool {
+        self.held_since_secs.is_some_and(|since| now_secs - since < MAX_HOLD_SECS)
+    }
+
+    /// Lets work go on: no frame is measured.
+    pub fn release(&mut self) {
+        self.held_since_secs = None;
+        self.in_flight.iter_mut().for_each(|is_alone| *is_alone = false);
+    }
+
+    /// Whether the next frame is to be measured.
+    fn is_due(&self) -> bool {
+        self.measured < FIRST_MEASURED || self.since_measured >= FRAMES_BETWEEN
+    }
+
+    /// Notes that the oldest frame has ended. Returns whether it had the GPU to itself.
+    pub fn ended(&mut self) -> bool {
+        let was_alone = self.in_flight.pop_front().unwrap_or(false);
+        if was_alone {
+            // Work may follow now, beside any frame after this one.
+            self.release();
+            self.measured = self.measured.saturating_add(1);
+            self.since_measured = 0;
+        } else {
+            self.since_measured = self.since_measured.saturating_add(1);
+        }
+        was_alone
+    }
+}
+
+impl Schedule {
+    /// Requests a frame of the interface that reports progress. Returns whether it may be drawn now.
+    ///
+    /// A frame that is to be measured waits until all work has ended, and no work is handed out until the frame has.
+    pub fn request_frame(&mut self, now_secs: f64) -> bool {
+        let is_refining = self.pace == Pace::Interactive
+            && !self.opening
+            && !self.follows(now_secs)
+            && !self.status(now_secs).idle;
+        let frames = &mut self.interface_frames;
+        if !is_refining {
+            frames.release();
+        } else if frames.is_due() && frames.held_since_secs.is_none() {
+            frames.held_since_secs = Some(now_secs);
+        }
+        !frames.is_holding(now_secs) || (self.in_flight.is_empty() && frames.in_flight.is_empty())
+    }
+
+    /// Notes that a frame of the interface has been submitted. `is_only_work`: nothing but the view's work and the
+    /// interface use the GPU.
+    pub fn frame_submitted(&mut self, is_only_work: bool, now_secs: f64) {
+        let frames = &mut self.interface_frames;
+        let is_alone = is_only_work
+            && frames.is_holding(now_secs)
+            && self.in_flight.is_empty()
+            && frames.in_flight.is_empty();
+        frames.in_flight.push_back(is_alone);
+    }
+}
