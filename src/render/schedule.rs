@@ -31,11 +31,11 @@ mod rate;
 mod types;
 mod work;
 
-use adaptation::Adaptation;
-use completion::{InFlight, Piece};
+use adaptation::{ADAPT_INTERVAL_SECS, ADAPT_SHARE, Adaptation};
+use completion::{InFlight, MAX_IN_FLIGHT, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
-use interface_frames::InterfaceFrames;
+use interface_frames::{FRAME_SHARE, InterfaceFrames};
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
 use progress::Progress;
@@ -43,14 +43,9 @@ pub use progress::Reuse;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
 pub use work::{
-    BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, Points, Stage, Trace, Work,
+    BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, MAX_PIECE_WORKGROUPS, Points,
+    Stage, Trace, Work,
 };
-
-/// Pieces of work on the GPU at any time.
-pub const MAX_IN_FLIGHT: usize = 2;
-
-/// Most workgroups in a piece of work: a megapixel, and one of the largest batches.
-pub const MAX_PIECE_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
 /// of each dispatch leave much of the GPU idle: short pieces waste time.
@@ -69,17 +64,8 @@ const DISPLAY_INTERVAL_SECS: f64 = 0.25;
 /// Largest part of GPU time that displays of a refining picture take.
 const DISPLAY_SHARE: f64 = 0.05;
 
-/// Largest part of GPU time that frames of the interface take which only report progress.
-const FRAME_SHARE: f64 = 0.1;
-
 /// Time without a change after which a movement is over, seconds.
 const QUIET_SECS: f64 = 0.12;
-
-/// Least time between two displays that only adapt exposure, seconds.
-const ADAPT_INTERVAL_SECS: f64 = 0.03;
-
-/// Largest part of GPU time that displays take which only adapt exposure.
-const ADAPT_SHARE: f64 = 0.2;
 
 /// The state machine.
 #[derive(Clone, Debug)]
@@ -328,6 +314,20 @@ impl Schedule {
     /// order, each with the GPU time since the one before it ended, milliseconds.
     pub fn collect(&mut self, finished: &[(Option<Work>, f64)]) {
         self.in_flight.collect(finished, &mut self.interface_frames, &mut self.cost);
+    }
+
+    /// Requests a frame of the interface that reports progress. Returns whether it may be drawn now.
+    pub fn request_frame(&mut self, now_secs: f64) -> bool {
+        let status = self.status(now_secs);
+        let is_refining = status.shown && !status.moving && !status.idle;
+        self.interface_frames.request(is_refining, self.in_flight.is_empty(), now_secs)
+    }
+
+    /// Notes that a frame of the interface has been submitted. `is_only_work`: nothing but this picture and the interface
+    /// use the GPU.
+    pub fn frame_submitted(&mut self, is_only_work: bool, now_secs: f64) {
+        let is_free = is_only_work && self.in_flight.is_empty();
+        self.interface_frames.submitted(is_free, now_secs);
     }
 
     /// What the next piece of work is for.

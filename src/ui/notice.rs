@@ -6,10 +6,10 @@ use egui::{
 
 use super::{
     action::Action,
-    display_inputs::{DisplayInputs, Notice},
+    display_inputs::{DisplayInputs, ExportProgress, Notice},
     icon::{Icon, icon_button},
-    panel,
     rects::Rects,
+    status::duration_text,
     theme,
 };
 
@@ -23,6 +23,17 @@ const GAP: f32 = 12.0;
 const CROSS_WIDTH: f32 = 52.0;
 /// Room for the button of an offer, in points.
 const OFFER_WIDTH: f32 = 130.0;
+
+/// What the button to cancel an export does.
+pub(super) const CANCEL_HELP: &str = "Stop the export; no file is saved";
+
+/// How far an export is, in words.
+pub(super) fn saving_text(progress: ExportProgress) -> String {
+    match progress.remaining_secs {
+        Some(secs) => format!("Saving, {} left", duration_text(secs)),
+        None => "Saving…".to_owned(),
+    }
+}
 
 /// Shows the messages of `inputs` at the upper edge of `view`.
 pub fn show(
@@ -73,7 +84,7 @@ pub fn show(
     }
     // Where neither the panel nor the timeline, which are drawn before, shows it.
     if let Some(export) = inputs.export.filter(|_| rects.get("cancel export").is_none()) {
-        let cancel = progress("saving", &panel::saving_text(export), panel::CANCEL_HELP, rects);
+        let cancel = progress("saving", &saving_text(export), CANCEL_HELP, rects);
         if let Some(cancel) = cancel {
             rects.record("cancel export", &cancel);
             if cancel.clicked() {

@@ -1,5 +1,11 @@
 //! How auto exposure follows the film: over some tenths of a second where someone watches.
 
+/// Least time between two displays that only adapt exposure, seconds.
+pub const ADAPT_INTERVAL_SECS: f64 = 0.03;
+
+/// Largest part of GPU time that displays take which only adapt exposure.
+pub const ADAPT_SHARE: f64 = 0.2;
+
 /// Time constant of exposure, seconds: it moves 1 − 1/e of the way to its goal in this time.
 const ADAPT_SECS: f64 = 0.15;
 

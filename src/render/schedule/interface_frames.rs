@@ -4,7 +4,8 @@
 
 use std::collections::VecDeque;
 
-use super::{Schedule, types::Pace};
+/// Largest part of GPU time that frames of the interface take which only report progress.
+pub const FRAME_SHARE: f64 = 0.1;
 
 /// Frames between two measured ones.
 const FRAMES_BETWEEN: u32 = 16;
@@ -40,6 +41,25 @@ impl InterfaceFrames {
         self.in_flight.iter_mut().for_each(|is_alone| *is_alone = false);
     }
 
+    /// Requests a frame that reports progress. Returns whether it may be drawn now.
+    ///
+    /// One that is to be measured waits until all work has ended. `is_refining`: a picture at rest has work left.
+    /// `is_free`: no work is in flight.
+    pub fn request(&mut self, is_refining: bool, is_free: bool, now_secs: f64) -> bool {
+        if !is_refining {
+            self.release();
+        } else if self.is_due() && self.held_since_secs.is_none() {
+            self.held_since_secs = Some(now_secs);
+        }
+        !self.is_holding(now_secs) || (is_free && self.in_flight.is_empty())
+    }
+
+    /// Notes that a frame has been submitted. `is_free`: no work is in flight, of this picture or another.
+    pub fn submitted(&mut self, is_free: bool, now_secs: f64) {
+        let is_alone = is_free && self.is_holding(now_secs) && self.in_flight.is_empty();
+        self.in_flight.push_back(is_alone);
+    }
+
     /// Whether the next frame is to be measured.
     fn is_due(&self) -> bool {
         self.measured < FIRST_MEASURED || self.since_measured >= FRAMES_BETWEEN
@@ -57,35 +77,5 @@ impl InterfaceFrames {
             self.since_measured = self.since_measured.saturating_add(1);
         }
         was_alone
-    }
-}
-
-impl Schedule {
-    /// Requests a frame of the interface that reports progress. Returns whether it may be drawn now.
-    ///
-    /// A frame that is to be measured waits until all work has ended, and no work is handed out until the frame has.
-    pub fn request_frame(&mut self, now_secs: f64) -> bool {
-        let is_refining = self.pace == Pace::Interactive
-            && !self.opening
-            && !self.follows(now_secs)
-            && !self.status(now_secs).idle;
-        let frames = &mut self.interface_frames;
-        if !is_refining {
-            frames.release();
-        } else if frames.is_due() && frames.held_since_secs.is_none() {
-            frames.held_since_secs = Some(now_secs);
-        }
-        !frames.is_holding(now_secs) || (self.in_flight.is_empty() && frames.in_flight.is_empty())
-    }
-
-    /// Notes that a frame of the interface has been submitted. `is_only_work`: nothing but the view's work and the
-    /// interface use the GPU.
-    pub fn frame_submitted(&mut self, is_only_work: bool, now_secs: f64) {
-        let frames = &mut self.interface_frames;
-        let is_alone = is_only_work
-            && frames.is_holding(now_secs)
-            && self.in_flight.is_empty()
-            && frames.in_flight.is_empty();
-        frames.in_flight.push_back(is_alone);
     }
 }

@@ -17,6 +17,9 @@ pub const BATCH_WORKGROUPS: u32 = 2048;
 /// rays together, so that batches grow there ([`Targets::fit_batch`](crate::render::targets::Targets::fit_batch)).
 pub const MAX_BATCH_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
+/// Most workgroups in a piece of work: a megapixel, and one of the largest batches.
+pub const MAX_PIECE_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
+
 /// Which sample points a trace computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Points {

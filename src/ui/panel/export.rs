@@ -12,8 +12,8 @@ use crate::{
         action::Action,
         display_inputs::ExportProgress,
         export_size::{DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, StillFormat},
+        notice::{CANCEL_HELP, saving_text},
         shortcuts::Command,
-        status::duration_text,
         theme,
         widgets::{Help as _, button_row, caption, choice, number},
     },
@@ -60,17 +60,6 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
-    }
-}
-
-/// What the button to cancel an export does.
-pub(in crate::ui) const CANCEL_HELP: &str = "Stop the export; no file is saved";
-
-/// How far an export is, in words.
-pub(in crate::ui) fn saving_text(progress: ExportProgress) -> String {
-    match progress.remaining_secs {
-        Some(secs) => format!("Saving, {} left", duration_text(secs)),
-        None => "Saving…".to_owned(),
     }
 }
 

@@ -51,7 +51,6 @@ use super::{
 };
 pub(super) use context::Context;
 use context::Section;
-pub(super) use export::{CANCEL_HELP, saving_text};
 pub(super) use formula_text::{close_formula_window, formula_window, is_formula_window_open};
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
