@@ -14,7 +14,7 @@ const FRAMES_BETWEEN: u32 = 16;
 const FIRST_MEASURED: u32 = 2;
 
 /// Longest time that work waits for a frame, seconds: a page out of sight draws none.
-const MAX_HOLD_SECS: f64 = 1.0;
+const MAX_HOLD_SECS: f64 = 3.0;
 
 /// The interface's frames in flight, and whether work waits for one.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +46,11 @@ impl InterfaceFrames {
     /// One that is to be measured waits until all work has ended. `is_refining`: a picture at rest has work left.
     /// `is_free`: no work is in flight.
     pub fn request(&mut self, is_refining: bool, is_free: bool, now_secs: f64) -> bool {
+        if self.held_since_secs.is_some() && !self.is_holding(now_secs) {
+            // None came: after the next ones that do come, it is tried again.
+            self.release();
+            (self.measured, self.since_measured) = (FIRST_MEASURED, 0);
+        }
         if !is_refining {
             self.release();
         } else if self.is_due() && self.held_since_secs.is_none() {

@@ -190,8 +190,18 @@ fn work_goes_on_after_a_measured_frame() {
 #[test]
 fn work_does_not_wait_for_a_frame_that_does_not_come() {
     let mut hidden = waiting_for_a_frame();
-    assert_eq!(hidden.next(1.5), None);
-    assert!(hidden.next(2.5).is_some(), "a second later");
+    assert_eq!(hidden.next(3.5), None);
+    let work = hidden.next(4.5);
+    assert!(work.is_some(), "more than three seconds later");
+    assert!(hidden.request_frame(4.5), "no other one is waited for at once");
+    hidden.collect(&[(work, 5.0)]);
+    for _ in 0..16 {
+        assert!(hidden.request_frame(4.5));
+        hidden.frame_submitted(true, 4.5);
+        hidden.collect(&[(None, 5.0)]);
+    }
+    assert!(hidden.request_frame(4.5));
+    assert_eq!(hidden.next(4.5), None, "after frames that came, one is measured");
     // Nor in another picture.
     let mut changed = waiting_for_a_frame();
     changed.frame_submitted(true, 1.0);
