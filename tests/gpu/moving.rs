@@ -109,12 +109,22 @@ fn frames_of_the_interface_change_nothing() {
     let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
     view.set_scene(&scene, false);
     let start = std::time::Instant::now();
-    while view.pump(start.elapsed().as_secs_f64()) {
-        view.time_frame();
+    let mut now_secs = 0.0;
+    // The first ones are waited for, to be measured.
+    let (mut waited, mut drawn) = (0, 0);
+    while view.pump(now_secs) {
+        now_secs = start.elapsed().as_secs_f64();
+        if view.request_frame(now_secs) {
+            view.time_frame(true, now_secs);
+            drawn += 1;
+        } else {
+            waited += 1;
+        }
         view.wait();
         assert!(start.elapsed() < HANG, "the view never rests: {:?}", view.report());
     }
     let usual = finished(&scene, size, Pace::Interactive);
     assert_same(&pixels(&view), &pixels(&usual), size, "the picture");
     assert_eq!(view.report().samples_done, 3);
+    assert!(waited > 0 && drawn > 0, "{waited} waits, {drawn} frames");
 }
