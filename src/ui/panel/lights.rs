@@ -48,7 +48,7 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
 
 /// What the key light's ball moves.
 #[derive(Clone, Copy, PartialEq)]
-enum Key {
+enum KeyLight {
     /// The selected directional light, or the first, by its index.
     Light(usize),
     /// The sky's sun, where there is no directional light.
@@ -57,7 +57,7 @@ enum Key {
     None,
 }
 
-impl Key {
+impl KeyLight {
     fn of(lights: &Lights, selected: Option<LightRef>) -> Self {
         let count = lights.environment.len();
         match selected {
@@ -72,16 +72,16 @@ impl Key {
 /// The direction and colour of the key light.
 fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
     let Scene { camera, lights, .. } = &mut *cx.scene;
-    let key = Key::of(lights, cx.selection.light);
+    let key = KeyLight::of(lights, cx.selection.light);
     ui.horizontal(|ui| {
         let name = "Key light direction";
         let ball = match key {
-            Key::Light(index) => {
+            KeyLight::Light(index) => {
                 let light = &mut lights.environment[index];
                 Some(light::direction_ball(ui, name, KEY_BALL, light, camera))
             }
-            Key::Sun => Some(rig::sun_ball(ui, name, KEY_BALL, &mut lights.rig, camera)),
-            Key::None => None,
+            KeyLight::Sun => Some(rig::sun_ball(ui, name, KEY_BALL, &mut lights.rig, camera)),
+            KeyLight::None => None,
         };
         if let Some(response) = &ball {
             cx.rects.record("key light ball", response);
@@ -91,16 +91,16 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
             ui.set_max_width((ui.available_width() - 0.5).max(0.0));
             ui.add_space(4.0);
             let (what, value) = match key {
-                Key::Light(index) => {
+                KeyLight::Light(index) => {
                     let name = LightRef::Environment(index).name().to_lowercase();
                     let what = format!("Drag the dot to move {name}.");
                     (what, Some(&mut lights.environment[index].color))
                 }
-                Key::Sun => {
+                KeyLight::Sun => {
                     let what = "Drag the dot to move the sun.".to_owned();
                     (what, Some(&mut lights.rig.sky.sun_color))
                 }
-                Key::None => ("This scene has no key light.".to_owned(), None),
+                KeyLight::None => ("This scene has no key light.".to_owned(), None),
             };
             ui.label(RichText::new(what).color(theme::TEXT_DIM));
             ui.add_space(4.0);
@@ -109,14 +109,14 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
                 ui.add_space(4.0);
             }
             let which = match key {
-                Key::Light(_) => "this light moves to where it reaches",
-                Key::Sun | Key::None if lights.point.is_empty() => "a new light shines on",
-                Key::Sun | Key::None => "a point light moves to where it reaches",
+                KeyLight::Light(_) => "this light moves to where it reaches",
+                KeyLight::Sun | KeyLight::None if lights.point.is_empty() => "a new light shines on",
+                KeyLight::Sun | KeyLight::None => "a point light moves to where it reaches",
             };
             let response = ui.button("Light a place").help(format!("Then click the surface: {which} that place (Alt + Shift + click). By keyboard: Tab to the view, then Enter for its middle"));
             cx.rects.record("light a place", &response);
             if response.clicked() {
-                if let Key::Light(index) = key {
+                if let KeyLight::Light(index) = key {
                     cx.selection.light = Some(LightRef::Environment(index));
                 }
                 cx.commands.push(Command::LightPlace);
