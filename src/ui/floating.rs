@@ -191,15 +191,18 @@ impl ButtonRow {
         Self { next: rect.left_bottom() + corner - height, has_words }
     }
 
-    /// Number of buttons with words that fit the picture in `rect`. In a low picture they leave the middle free, if
+    /// Number of buttons that fit the picture in `rect`. In a low picture those with words leave the middle free, if
     /// enough of them fit beside it.
-    pub fn capacity(rect: Rect) -> usize {
-        let fitting = |width: f32| ((width - 4.0) / WORD_STEP).floor().max(1.0) as usize;
-        let beside_middle = fitting(0.5 * rect.width());
+    pub fn capacity(ui: &Ui, rect: Rect) -> usize {
+        let fitting = |width: f32, step: f32| (width / step).floor().max(1.0) as usize;
+        if !has_words(ui, rect) {
+            return fitting(rect.width() - GAP, button_side(ui) + GAP);
+        }
+        let beside_middle = fitting(0.5 * rect.width() - 4.0, WORD_STEP);
         if rect.height() < LOW_PICTURE && beside_middle >= MIN_BESIDE {
             beside_middle
         } else {
-            fitting(rect.width())
+            fitting(rect.width() - 4.0, WORD_STEP)
         }
     }
 

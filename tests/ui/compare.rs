@@ -56,13 +56,20 @@ fn the_comparison_ends_and_what_is_in_view_stays() {
     assert_eq!(*scene(&harness), kept);
 }
 
-/// On a touch screen there are no keys: buttons compare, and words say which state is in view.
+/// Who knows no keys compares by buttons, and words say which state is in view.
 #[test]
-fn fingers_compare_two_states_and_hold_the_one_before() {
-    for size in [[390.0, 844.0], [844.0, 390.0]] {
+fn buttons_compare_two_states_and_show_the_one_before() {
+    for (size, has_touch) in [
+        ([390.0, 844.0], true),
+        ([844.0, 390.0], true),
+        ([1280.0, 720.0], false),
+        ([640.0, 420.0], false),
+    ] {
         let mut harness = without_motion(stage(presets::opening(), Settings::default(), size));
         let first = scene(&harness).clone();
-        touch(&mut harness);
+        if has_touch {
+            touch(&mut harness);
+        }
         press_tool(&mut harness, "Compare");
         harness.get_by_label("B is in view: the copy of A. Edits change B.");
         press(&mut harness, "State A");
@@ -87,5 +94,13 @@ fn fingers_compare_two_states_and_hold_the_one_before() {
         harness.run_steps(3);
         assert_ne!(*harness.state().interface.shown_scene(), first, "let go, in {size:?}");
         assert_ne!(*scene(&harness), first, "nothing was undone");
+
+        // Keys and screen readers hold nothing: they see it for a while.
+        let button = harness.get_by_label("Before");
+        button.focus();
+        harness.run_steps(2);
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        assert_eq!(*harness.state().interface.shown_scene(), first, "by Enter, in {size:?}");
     }
 }

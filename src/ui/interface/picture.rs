@@ -199,14 +199,13 @@ impl Interface {
             return buttons;
         }
         let tools = self.tools();
-        let has_words = floating::has_words(ui, rect);
-        let capacity = if has_words { ButtonRow::capacity(rect) } else { tools.len() };
+        let capacity = ButtonRow::capacity(ui, rect);
         let in_row = if tools.len() > capacity { capacity - 1 } else { tools.len() };
         let (in_row, in_menu) = tools.split_at(in_row);
         for tool in in_row {
             let button = buttons.add(ui, tool.button);
             self.rects.record(tool.rect, &button);
-            if tool.command == Some(Command::FindPlaces) && self.places.are_shown() {
+            if tool.command == Command::FindPlaces && self.places.are_shown() {
                 floating::mark(ui, &button);
             }
             self.use_tool(tool, &button, commands);
@@ -235,64 +234,56 @@ impl Interface {
         buttons
     }
 
-    /// Runs the command of a tool that was clicked, and returns whether it was. The view before the last
-    /// change has no command: it shows while its button is held.
+    /// Runs the command of a tool that was clicked, and returns whether it was. A tool that is held runs its command
+    /// only by keys and screen readers, which hold nothing.
     fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
-        let Some(command) = tool.command else {
-            self.is_comparing |= button.is_pointer_button_down_on();
-            return false;
-        };
-        if button.clicked() {
-            commands.push(command);
+        let is_by_pointer = button.ctx.input(|input| input.pointer.any_released());
+        self.is_comparing |= tool.is_held && button.is_pointer_button_down_on();
+        let is_run = button.clicked() && !(tool.is_held && is_by_pointer);
+        if is_run {
+            commands.push(tool.command);
         }
-        button.clicked()
+        is_run
     }
 
-    /// The tools over the picture, the most used first. Keys alone compare states without a touch screen.
+    /// The tools over the picture, the most used first.
     fn tools(&self) -> Vec<Tool> {
         let tool = |icon, name_and_hover, word, rect, command| Tool {
             button: RowButton { icon, name_and_hover, word },
             rect,
             command,
+            is_held: command == Command::ShowBefore,
         };
         let mut tools = Vec::new();
         let hover = ("Surprise me", "Show a random scene (R)");
-        tools.push(tool(Icon::Dice, hover, "Surprise", "surprise", Some(Command::Surprise)));
+        tools.push(tool(Icon::Dice, hover, "Surprise", "surprise", Command::Surprise));
         let hover = ("Mutate", "Show variations of this scene, side by side (M)");
-        tools.push(tool(Icon::Grid, hover, "Mutate", "mutate", Some(Command::Mutate)));
+        tools.push(tool(Icon::Grid, hover, "Mutate", "mutate", Command::Mutate));
         let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
-        tools.push(tool(Icon::Share, hover, "Share", "share", Some(Command::Share)));
+        tools.push(tool(Icon::Share, hover, "Share", "share", Command::Share));
         let pins = self.places.button();
-        tools.push(tool(Icon::Pin, pins, "Places", "find places", Some(Command::FindPlaces)));
+        tools.push(tool(Icon::Pin, pins, "Places", "find places", Command::FindPlaces));
         let (hover, word) =
             if self.pilot.is_diving() { (dive::STOP, "Stop") } else { (dive::BEGIN, "Dive") };
-        tools.push(tool(Icon::Dive, hover, word, "dive", Some(Command::Dive)));
+        tools.push(tool(Icon::Dive, hover, word, "dive", Command::Dive));
         if let Some(target) = HomeTarget::of(&self.editor.scene().camera, &self.home) {
             let (icon, hover) = target.button();
-            tools.push(tool(icon, hover, hover.0, "home", Some(Command::Home)));
+            tools.push(tool(icon, hover, hover.0, "home", Command::Home));
         }
         if !self.settings.timeline_open {
             let hover =
                 ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
-            let command = Some(Command::ToggleTimeline);
+            let command = Command::ToggleTimeline;
             // On a phone, where few tools fit, others are used more.
             let at = if self.has_touch { tools.len() } else { 0 };
             let animate = tool(Icon::Timeline, hover, "Animate", "timeline toggle", command);
             tools.insert(at, animate);
         }
-        if self.has_touch {
-            let hover =
-                ("Compare", "Keep this state as A and edit a copy, B; then switch (Shift C)");
-            tools.push(tool(
-                Icon::Halves,
-                hover,
-                "Compare",
-                "compare toggle",
-                Some(Command::Compare),
-            ));
-            let hover = ("Before", "Hold to see the view before the last change (C)");
-            tools.push(tool(Icon::Before, hover, "Before", "before", None));
-        }
+        let hover = ("Compare", "Keep this state as A and edit a copy, B; then switch (Shift C)");
+        let compare = Command::Compare;
+        tools.push(tool(Icon::Halves, hover, "Compare", "compare toggle", compare));
+        let hover = ("Before", "Hold to see the view before the last change (C)");
+        tools.push(tool(Icon::Before, hover, "Before", "before", Command::ShowBefore));
         tools
     }
 }
@@ -302,6 +293,8 @@ struct Tool {
     button: RowButton,
     /// The name of its rectangle.
     rect: &'static str,
-    /// What a click runs; none for the one that is held.
-    command: Option<Command>,
+    /// What a click runs.
+    command: Command,
+    /// True if the view shows its effect while a pointer holds it.
+    is_held: bool,
 }
