@@ -433,7 +433,7 @@ fn sections_are_reset_one_by_one() {
             .filter_map(|node| node.accesskit_node().label())
             .filter(|label| label.starts_with("Reset: "))
             .collect();
-        assert_eq!(names.len(), 11, "{names:?}");
+        assert_eq!(names.len(), 12, "{names:?}");
         for name in &names {
             let before = scene(&harness).clone();
             harness.get_by_label(name).click_accesskit();

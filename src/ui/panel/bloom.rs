@@ -14,7 +14,7 @@ pub(super) const SECTION: Section = Section {
     title: "Bloom",
     hover: "A soft glow around bright spots",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the settings of a new scene.

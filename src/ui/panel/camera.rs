@@ -22,7 +22,7 @@ pub(super) const SECTION: Section = Section {
     title: "Camera",
     hover: "Field of view, depth of field, stereo, fly mode",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the lens and the field of view of a new scene; the view stays where it is.

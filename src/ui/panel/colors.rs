@@ -24,7 +24,7 @@ pub(super) const SECTION: Section = Section {
     title: "Colours",
     hover: "What colours the surface, and with which gradient",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the colours of a new scene.

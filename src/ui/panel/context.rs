@@ -21,8 +21,8 @@ pub struct Section {
     pub hover: &'static str,
     /// Draws the panel.
     pub show: fn(&mut Ui, &mut Context<'_>),
-    /// Restores the section's values to those of a new scene; none if it edits no scene.
-    pub reset: Option<fn(&mut Scene)>,
+    /// Restores the section's values to those of a new scene, or of a first visit if they belong to no scene.
+    pub reset: fn(&mut Context<'_>),
 }
 
 /// The data that the panels show and edit.

@@ -88,8 +88,14 @@ pub(super) const SECTION: Section = Section {
     title: "Export",
     hover: "Size and format of saved pictures, scene files and links",
     show,
-    reset: None,
+    reset,
 };
+
+/// Restores all but the kind of file of a path's frames, which is chosen in the timeline.
+fn reset(cx: &mut Context<'_>) {
+    let export = &mut cx.settings.export;
+    *export = ExportSize { sequence: export.sequence, ..ExportSize::default() };
+}
 
 /// The picture's size and format, and the scene's file and link.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

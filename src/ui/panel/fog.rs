@@ -14,7 +14,7 @@ pub(super) const SECTION: Section = Section {
     title: "Fog",
     hover: "Haze between you and the fractal; with path tracing also shafts of light",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the settings of a new scene.

@@ -35,7 +35,7 @@ pub(super) const SECTION: Section = Section {
     title: "Fractal",
     hover: "The formula, its form and its detail",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the formula's own values; steps of a hybrid and section planes stay.

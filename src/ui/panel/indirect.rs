@@ -17,7 +17,7 @@ pub(super) const SECTION: Section = Section {
     title: "Indirect light",
     hover: "Light that bounces from one surface to another",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the settings of a new scene.

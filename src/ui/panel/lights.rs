@@ -142,7 +142,7 @@ pub(super) const SECTION: Section = Section {
     title: "All lights",
     hover: "The list of lights, their colours and shadows, and the light of a sky or an environment map",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the lights of a new scene.

@@ -38,7 +38,7 @@ use egui::{
     emath::GuiRounding as _, vec2,
 };
 
-use crate::scene::{Path, Scene, param::Param};
+use crate::scene::{Path, param::Param};
 
 use super::{
     icon::{Icon, icon_button, icon_side},
@@ -262,20 +262,19 @@ fn find_button(ui: &mut Ui, cx: &mut Context<'_>) {
 /// A section's controls.
 fn contents(ui: &mut Ui, cx: &mut Context<'_>, section: &Section) {
     (section.show)(ui, cx);
-    if let Some(reset) = section.reset {
-        reset_button(ui, cx, section.title, reset);
-    }
+    reset_button(ui, cx, section);
 }
 
 /// A small button at the end of a section that restores its settings.
-fn reset_button(ui: &mut Ui, cx: &mut Context<'_>, title: &str, reset: fn(&mut Scene)) {
+fn reset_button(ui: &mut Ui, cx: &mut Context<'_>, section: &Section) {
+    let Section { title, reset, .. } = section;
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         let text = RichText::new("Reset").small().color(theme::TEXT_DIM);
-        let response = ui.button(text).help(format!("{title}: back to the values of a new scene"));
+        let response = ui.button(text).help(format!("{title}: back to the values at the start"));
         if response.clicked() {
-            reset(cx.scene);
+            reset(cx);
         }
         response.accessible_name(format!("Reset: {title}"));
     });

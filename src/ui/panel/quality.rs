@@ -43,7 +43,7 @@ pub(super) const SECTION: Section = Section {
     title: "Quality",
     hover: "Trade sharpness for speed",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the settings of a new scene.

@@ -25,7 +25,7 @@ pub(in crate::ui) const SECTION: Section = Section {
     title: "Section planes",
     hover: "Cuts the fractal open and shows the slice",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Removes all planes.

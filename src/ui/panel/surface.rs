@@ -14,7 +14,7 @@ pub(super) const SECTION: Section = Section {
     title: "Surface",
     hover: "How the surface looks: matte, glossy, metallic or glowing",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores the surface of a new scene; its colours stay.

@@ -17,7 +17,7 @@ pub(super) const SECTION: Section = Section {
     title: "Tone and background",
     hover: "Brightness, contrast and the background",
     show,
-    reset: Some(reset),
+    reset: |cx| reset(cx.scene),
 };
 
 /// Restores tone and background of a new scene.
