@@ -289,6 +289,8 @@ impl Interface {
         let Scene { fractal, camera, .. } = self.scene();
         let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
+        let view = self.rects.get("view");
+        let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
         self.notices(ui, inputs, now_secs, &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch, &mut self.rects);
         if let Some(view) = self.rects.get("view") {
@@ -297,8 +299,6 @@ impl Interface {
             commands.extend(shared);
         }
 
-        let view = self.rects.get("view");
-        let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
         let (project, settings) = (self.editor.project(), &self.settings);
         let controls = || self.control_index.controls(project, settings, inputs);
         if let Some(target) = self.finder.show(ui, &mut self.rects, controls) {

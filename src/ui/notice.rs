@@ -35,7 +35,7 @@ pub(super) fn saving_text(progress: ExportProgress) -> String {
     }
 }
 
-/// Shows the messages of `inputs` at the upper edge of `view`.
+/// Shows the messages of `inputs` at the upper edge of `view`, or below the bar of a comparison, which is drawn before.
 pub fn show(
     ui: &Ui,
     inputs: &DisplayInputs<'_>,
@@ -44,7 +44,8 @@ pub fn show(
     rects: &mut Rects,
 ) {
     let Some(view) = view else { return };
-    let mut top = view.top() + GAP;
+    let compare = rects.get("compare").map(|bar| bar.bottom());
+    let mut top = compare.unwrap_or(view.top()) + GAP;
     if let Some(Notice { text, is_error, offer }) = inputs.notice {
         let (text_color, edge) =
             if *is_error { (theme::ERROR, theme::ERROR) } else { (Color32::WHITE, theme::ACCENT) };

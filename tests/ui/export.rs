@@ -5,7 +5,10 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     export::jpeg,
     scene::presets,
-    ui::{Action, DEFAULT_QUALITY, ExportProgress, Settings, StillFile, StillFormat},
+    ui::{
+        Action, DEFAULT_QUALITY, ExportProgress, ExportSize, SequenceFormat, Settings, StillFile,
+        StillFormat,
+    },
 };
 
 use crate::stage::*;
@@ -112,4 +115,45 @@ fn a_file_that_is_saved_out_of_sight_can_be_cancelled() {
         harness.run();
         assert_eq!(harness.state().actions, [Action::CancelExport], "{size:?}");
     }
+}
+
+/// Messages lie below the bar of a comparison, in a low window too.
+#[test]
+fn messages_leave_a_comparison_free() {
+    for size in [[1280.0, 720.0], [390.0, 844.0], [844.0, 390.0], [640.0, 420.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        if size[1] < 500.0 {
+            harness.key_press(Key::P);
+        }
+        harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
+        harness.run();
+        harness.state_mut().export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
+        harness.run();
+        let rects = harness.state().interface.rects();
+        let [bar, view] = ["compare", "view"].map(|name| rects.get(name).expect(name));
+        if let Some(message) = rects.get("saving") {
+            assert!(!message.intersects(bar), "{size:?}: {message:?} over {bar:?}");
+            assert!(view.contains_rect(message), "{size:?}: {message:?} in {view:?}");
+        }
+        assert_eq!(rects.get("saving").is_some(), size[0] < 1000.0, "{size:?}");
+    }
+}
+
+/// The section's reset leaves the scene alone, and the timeline's choice.
+#[test]
+fn choices_of_files_are_reset() {
+    let mut settings = unfolded();
+    let start = settings.export;
+    settings.export.times = 4;
+    settings.export.pair = true;
+    settings.export.file.deep_png = true;
+    settings.export.sequence = SequenceFormat::WebM;
+    let mut harness = stage(presets::opening(), settings, [1280.0, 6000.0]);
+    harness.run_steps(3);
+    let before = scene(&harness).clone();
+    harness.get_by_label("Reset: Export").click_accesskit();
+    harness.run_steps(3);
+    let reset = harness.state().interface.settings().export;
+    assert_eq!(reset, ExportSize { sequence: SequenceFormat::WebM, ..start });
+    assert_eq!(*scene(&harness), before);
 }
