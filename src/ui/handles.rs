@@ -1,11 +1,11 @@
 //! Handles of lights and section planes in the view.
 //!
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
-//! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
-//! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
+//! upward is away from the eye. The handle of a directional light or of a sky's sun is on a ball around the picture's
+//! middle, as a dot is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
 //! A section plane moves along its normal, by a drag or by arrow keys. What is behind the eye has no handle.
 
-use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
+use egui::{Color32, Id, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
 
 use super::{
@@ -15,7 +15,7 @@ use super::{
     theme,
     widgets::{ArrowSteps, Help as _, arrow_steps, ball},
 };
-use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
+use crate::scene::{Camera, MIN_VIEW_UNIT, RigKind, Scene, follow};
 
 /// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
@@ -109,7 +109,7 @@ pub struct HandleInteraction {
     pub is_held: bool,
 }
 
-/// Draws the handles of all directional lights and turns a dragged light.
+/// Draws the handles of all directional lights and of a sky's sun, and turns a dragged one.
 pub fn environment_lights(
     ui: &Ui,
     frame: Frame,
@@ -117,48 +117,94 @@ pub fn environment_lights(
     selected: &Selection,
 ) -> HandleInteraction {
     let Scene { camera, lights, .. } = scene;
-    let center = frame.rect.center();
-    let radius = BALL_PART * frame.rect.size().min_elem();
     follow::edit(lights, camera, |lights| {
         let any_solo = lights.any_solo();
         let mut interaction = HandleInteraction::default();
         for (index, light) in lights.environment.iter_mut().enumerate() {
-            let mut toward_light = light.toward_light_in_view(camera);
-            let at = ball::dot_place(center, radius, toward_light);
-            let id = ui.scope_id().with(("light", index));
-            let area = grip(ui, at);
-            let response = ui.interact(area, id, Sense::click_and_drag());
             let this = LightRef::Environment(index);
-            let name = format!("{} in the view", this.name());
-            response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name.clone()));
-            let mut is_turned = ball::turn(ui, &response, center, radius, &mut toward_light);
+            let mut toward_light = light.toward_light_in_view(camera);
             let steps_of_row = selected.moved_light.filter(|(light, _)| *light == this);
             if let Some((_, steps)) = steps_of_row {
                 ball::turn_by_steps(&mut toward_light, steps);
-                is_turned = true;
             }
-            if is_turned {
+            let handle = DirectionHandle {
+                name: format!("{} in the view", this.name()),
+                id: ui.scope_id().with(("light", index)),
+                color: theme::display_color(light.color),
+                shines: !light.muted && (!any_solo || light.solo),
+                is_selected: selected.light == Some(this),
+            };
+            let used = handle.show(ui, frame, &mut toward_light);
+            if used.is_turned || steps_of_row.is_some() {
                 light.set_toward_light_in_view(toward_light, camera);
             }
-            if response.clicked() || response.drag_started() || response.gained_focus() {
-                interaction.touched = Some(this);
+            interaction.is_held |= used.is_held;
+            interaction.touched = used.is_touched.then_some(this).or(interaction.touched);
+        }
+        let rig = &mut lights.rig;
+        if rig.kind == RigKind::Sky {
+            let is_on = !rig.muted && (!any_solo || rig.solo);
+            let handle = DirectionHandle {
+                name: "Sun in the view".to_owned(),
+                id: ui.scope_id().with("sun"),
+                color: theme::display_color(rig.sky.sun_color),
+                shines: is_on && rig.sky.sun_strength > 0.0,
+                is_selected: false,
+            };
+            let mut toward_sun = rig.frame.to_view(rig.sky.sun_direction, camera);
+            let used = handle.show(ui, frame, &mut toward_sun);
+            if used.is_turned {
+                rig.sky.sun_direction = rig.frame.from_view(toward_sun, camera);
             }
-            let shines = !light.muted && (!any_solo || light.solo);
-            let is_pointed_at = response.hovered() || response.dragged();
-            interaction.is_held |= is_pointed_at || is_used_by_keyboard(&response);
-            let is_lit = is_pointed_at || response.has_focus();
-            if is_lit {
-                let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
-                ui.painter().circle_stroke(center, radius, spoke);
-                ui.painter().line_segment([center, at], spoke);
-            }
-            let is_lit = is_lit || selected.light == Some(this);
-            let color = theme::display_color(light.color);
-            paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
-            response.help(ball::HELP);
+            interaction.is_held |= used.is_held;
         }
         interaction
     })
+}
+
+/// A handle on the ball around the picture's middle, for a direction that light comes from.
+struct DirectionHandle {
+    /// Its name for screen readers.
+    name: String,
+    id: Id,
+    color: Color32,
+    /// False if the light is off.
+    shines: bool,
+    is_selected: bool,
+}
+
+/// What was done to a [`DirectionHandle`] in a frame.
+struct DirectionUse {
+    is_turned: bool,
+    /// True if the handle was clicked, or a drag of it began.
+    is_touched: bool,
+    /// True if the pointer is at the handle, or the keyboard is used there.
+    is_held: bool,
+}
+
+impl DirectionHandle {
+    /// Draws the handle at `toward_light`, a unit vector in the camera's axes, and turns it by drags and arrow keys.
+    fn show(self, ui: &Ui, frame: Frame, toward_light: &mut DVec3) -> DirectionUse {
+        let center = frame.rect.center();
+        let radius = BALL_PART * frame.rect.size().min_elem();
+        let at = ball::dot_place(center, radius, *toward_light);
+        let response = ui.interact(grip(ui, at), self.id, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, self.name.clone()));
+        let is_turned = ball::turn(ui, &response, center, radius, toward_light);
+        let is_touched = response.clicked() || response.drag_started() || response.gained_focus();
+        let is_pointed_at = response.hovered() || response.dragged();
+        let is_held = is_pointed_at || is_used_by_keyboard(&response);
+        let is_lit = is_pointed_at || response.has_focus();
+        if is_lit {
+            let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
+            ui.painter().circle_stroke(center, radius, spoke);
+            ui.painter().line_segment([center, at], spoke);
+        }
+        let is_lit = is_lit || self.is_selected;
+        paint(ui, at, self.color, self.shines, toward_light.z < 0.0, is_lit);
+        response.help(ball::HELP);
+        DirectionUse { is_turned, is_touched, is_held }
+    }
 }
 
 /// Length of the arrow that shows a section plane's normal, in points, where it is across the line of sight.

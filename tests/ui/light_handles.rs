@@ -1,9 +1,12 @@
 //! Handles of lights in the view: they follow the pointer, and show while a person works on lights.
 
 use egui::{Key, Modifiers, vec2};
-use egui_kittest::{Harness, kittest::Queryable as _};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 use mandelight::{
-    scene::{Scene, follow, presets},
+    scene::{RigKind, Scene, follow, light_setups::SETUPS, presets},
     ui::Settings,
 };
 
@@ -115,15 +118,39 @@ fn the_key_light_s_controls_show_handles_which_stay_to_be_reached() {
     assert!(!has_handle(&harness), "7 seconds later");
 }
 
+/// Each of its lights has one, and each handle moves its light alone.
 #[test]
 fn a_light_setup_that_was_chosen_has_handles() {
-    let mut harness = first_visit();
-    press(&mut harness, "Looks: Lights");
-    assert!(!has_handle(&harness));
-    button(&harness, "Light: Studio").click();
-    harness.run_steps(6);
-    assert_ne!(scene(&harness).lights, presets::opening().lights);
-    assert!(has_handle(&harness));
+    for setup in SETUPS {
+        let mut harness = first_visit();
+        press(&mut harness, "Looks: Lights");
+        assert!(!has_handle(&harness));
+        button(&harness, &format!("Light: {}", setup.name)).click();
+        harness.run_steps(6);
+        let chosen = scene(&harness).lights.clone();
+        assert_ne!(chosen, presets::opening().lights, "{}", setup.name);
+        let handles: Vec<String> = harness
+            .root()
+            .children_recursive()
+            .filter_map(|node| node.accesskit_node().label())
+            .filter(|label| label.ends_with(" in the view"))
+            .collect();
+        let lights = chosen.environment.len() + chosen.point.len();
+        let suns = usize::from(chosen.rig.kind == RigKind::Sky);
+        assert_eq!(handles.len(), lights + suns, "{}: {handles:?}", setup.name);
+        for handle in handles {
+            let before = scene(&harness).lights.clone();
+            harness.get_by_label(&handle).focus();
+            harness.run_steps(2);
+            harness.key_press(Key::ArrowRight);
+            harness.run_steps(3);
+            let after = scene(&harness).lights.clone();
+            assert_ne!(after, before, "{handle} of {}", setup.name);
+            harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+            harness.run_steps(3);
+            assert_eq!(scene(&harness).lights, before, "{handle} of {} is one step", setup.name);
+        }
+    }
 }
 
 /// A scene that only its sky lights has the sun for its key light.
