@@ -138,7 +138,18 @@ async function keepOffline() {
       worker.postMessage("activate");
     };
   };
-  element("update-later").onclick = () => (element("update").hidden = true);
+  element("update-later").onclick = () => {
+    element("update").hidden = true;
+    element("mandelight").focus();
+  };
+  // Tab goes round the interface's own controls, so another key leads to the offer.
+  const goToOffer = (event) => {
+    if (event.key !== "F6" || element("update").hidden) return;
+    event.preventDefault();
+    event.stopPropagation();
+    element("update-now").focus();
+  };
+  window.addEventListener("keydown", goToOffer, { capture: true });
   workers.addEventListener("controllerchange", () => isAccepted && location.reload());
   const registration = await workers.register("./service-worker.js", { updateViaCache: "none" });
   if (registration.waiting && workers.controller) offer(registration.waiting);

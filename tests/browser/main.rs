@@ -175,6 +175,10 @@ fn a_page_that_was_open_once_works_without_a_connection() {
     assert!(visit.number("/kept/files") as usize >= files - 2, "{}", visit.seen["kept"]);
     assert!(visit.text("/licenses").starts_with("Third-party licences of Mandelight"));
     assert_eq!(visit.text("/other"), "Mandelight");
+    assert_eq!(
+        visit.seen["by_keys"],
+        serde_json::json!(["update-now", "update-later", "mandelight"])
+    );
     for what in ["offered", "put_off", "reloaded", "renewed", "second"] {
         assert_eq!(visit.seen[what], true, "{what}");
     }
