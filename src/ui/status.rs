@@ -133,17 +133,17 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         }
         Activity::Refining => {
             let sample = (report.samples_done + 1).min(report.samples_wanted.max(1));
-            // As above: pixels are clean only if all are.
+            // As above: the picture is free of noise only if all pixels are.
             let percent = |part: f32| (100.0 * part).clamp(0.0, 99.0).floor();
-            let clean = report
+            let smooth = report
                 .converged_fraction
-                .map_or_else(String::new, |part| format!(", {} % clean", percent(part)));
-            let clean = clean + &clamped(report);
+                .map_or_else(String::new, |part| format!(", {} % free of noise", percent(part)));
+            let smooth = smooth + &clamped(report);
             if short {
-                format!("Sharp, {sample}/{}{clean}", report.samples_wanted)
+                format!("Sharp, {sample}/{}{smooth}", report.samples_wanted)
             } else {
                 format!(
-                    "Sharp, getting smoother: sample {sample} of {}{clean}, {}",
+                    "Sharp, getting smoother: sample {sample} of {}{smooth}, {}",
                     report.samples_wanted,
                     duration_text(report.elapsed_secs)
                 )
