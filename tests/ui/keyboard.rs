@@ -82,6 +82,40 @@ fn tab_visits_the_places_of_the_panel_in_reading_order() {
     }
 }
 
+/// In windows too, and it reaches all their controls. (The finder keeps the keyboard in its field, and arrows choose.)
+#[test]
+fn tab_visits_the_places_of_windows_in_reading_order() {
+    for (name, key) in [("share window", Key::J), ("help window", Key::F1), ("variations", Key::M)]
+    {
+        // Wide enough that only the picture lies below them.
+        let size = [1280.0, 900.0];
+        let mut harness = without_motion(stage(Scene::default(), Settings::default(), size));
+        harness.key_press(key);
+        harness.run();
+        let window = harness.state().interface.rects().get(name).expect(name);
+        // The picture and its handles lie below.
+        let is_inside = |(label, rect): &(String, Rect)| {
+            window.contains_rect(*rect) && !label.ends_with(" in the view")
+        };
+        let controls = harness.root().children_recursive().filter_map(|node| {
+            let control = node.accesskit_node();
+            let is_used = egui::accessibility::is_input(control.role());
+            (is_used && !control.is_disabled())
+                .then(|| (control.label().unwrap_or_default(), node.rect()))
+        });
+        let controls: Vec<_> = controls.filter(is_inside).collect();
+        assert!(!controls.is_empty(), "{name}");
+        let mut inside = visited(&mut harness, 150);
+        inside.retain(is_inside);
+        for control in controls {
+            assert!(inside.contains(&control), "{name}: {control:?} of {inside:#?}");
+        }
+        for pair in inside.windows(2) {
+            assert!(is_read_after(pair[0].1, pair[1].1), "{name}: {pair:#?}");
+        }
+    }
+}
+
 /// The Tab key reaches whatever a screen reader could focus: panel, header, timeline, the view and its buttons.
 #[test]
 fn tab_reaches_every_control() {
