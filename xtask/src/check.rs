@@ -18,9 +18,6 @@ pub fn check() -> Result<()> {
         &["doc", "--workspace", "--no-deps"],
     ];
     let mut failures = Vec::new();
-    if let Err(error) = fuzzer() {
-        failures.push(error.to_string());
-    }
     for pass in passes {
         let mut cargo = shell::cargo()?;
         // Only `cargo doc` reads this variable.
@@ -28,6 +25,9 @@ pub fn check() -> Result<()> {
         if let Err(error) = shell::run(&mut cargo) {
             failures.push(error.to_string());
         }
+    }
+    if let Err(error) = fuzzer() {
+        failures.push(error.to_string());
     }
     if let Err(error) = deny::packages() {
         failures.push(error.to_string());
