@@ -10,6 +10,9 @@ import { visit } from "./visit.mjs";
 const LOSSES = "mandelight.losses";
 const SETTINGS = "mandelight.settings";
 
+/** Seconds in which the page's clock goes on by one. */
+const SLOWNESS = 4;
+
 await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const lose = () => v.tab.evaluate(() => window.mandelight.loseDevice());
@@ -21,6 +24,11 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const hasNoPicture = () => v.tab.evaluate(() => window.mandelight.pixels().then(() => false, () => true));
   const drawsAgain = () => v.until("a picture on the new device", async () => !(await hasNoPicture()));
 
+  // A slow clock: the page counts the losses of two minutes, for which a software GPU may need more.
+  await v.tab.addInitScript((slowness) => {
+    const { now } = Date;
+    Date.now = () => now() / slowness;
+  }, SLOWNESS);
   await page.open();
   const quick = JSON.parse(await page.scene());
   quick.scene.quality.samples = 1;

@@ -11,17 +11,19 @@ const DEVICES = [
 
 /** Pixels of the view for each of its samples: a software GPU takes most of a minute for a whole sample, in each state. */
 const MOST_PIXELS = 8;
+/** The same for the first state: what a stranger sees first. */
+const MOST_PIXELS_AT_FIRST = 2;
 
 /** Small pictures that a state waits for: a software GPU takes minutes for those of all variations. */
 const SMALL_PICTURES = 2;
 
 /**
  * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too,
- * whether it shows small pictures of its own, and a box that is ticked first. (Variations keep the shape: software GPUs
+ * whether it shows small pictures of its own, a box that is ticked first, and a key that is pressed then. (Variations keep the shape: software GPUs
  * compile the kernels of others for long.)
  */
 const STATES = [
-  { name: "timeline", key: "t", rect: "timeline", isToggle: true },
+  { name: "timeline", key: "t", rect: "timeline", isToggle: true, then: "k" },
   { name: "share", key: "j", rect: "share window" },
   { name: "mutate", key: "m", rect: "variations", hasPictures: true, ticked: "Keep: Shape" },
   { name: "find", key: "Control+k", rect: "find window", words: "light" },
@@ -151,15 +153,19 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
     await v.tab.keyboard.press("Control+s");
     await page.rested("the progress of saving", () => page.rect("cancel export"));
     await shoot("saving");
+    await (hasTouch ? closePanel() : v.tab.keyboard.press("p"));
+    await page.rested("the progress without the panel", () => page.rect("saving"));
+    await shoot("saving-without-panel");
     await click("cancel export");
     await page.says("Saving was cancelled.");
     // It goes after six seconds: slow frames may not show it at rest for long enough before.
     await v.until("the notice", () => page.rect("notice"));
     await shoot("notice");
     await v.until("the notice to go", async () => !(await page.rect("notice")));
+    await openPanel();
     await sampled(1);
   };
-  const opening = () => shootRefined("opening", 2);
+  const opening = () => shootRefined("opening", MOST_PIXELS_AT_FIRST);
   const ofThePanel = async () => {
     await openPanel();
     await page.click("more");
@@ -180,10 +186,11 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   };
 
   const ofKeys = async () => {
-    for (const { name, key, rect, words, isToggle, hasPictures, ticked } of STATES) {
+    for (const { name, key, rect, words, isToggle, hasPictures, ticked, then } of STATES) {
       await v.tab.keyboard.press(key);
       await page.rested(name, () => page.rect(rect));
       if (ticked) await tick(ticked);
+      if (then) await page.changed(then, () => v.tab.keyboard.press(then));
       if (words) await v.tab.keyboard.type(words);
       if (hasPictures) await page.smallPictures(SMALL_PICTURES);
       await shootRefined(name);

@@ -18,7 +18,7 @@ fn each_state_of_the_interface_fits_the_window() {
         [("MANDELIGHT_FORMULA", OsString::from(formula)), ("MANDELIGHT_PICTURES", pictures.into())],
     );
     let states = visit.seen["states"].as_array().unwrap();
-    assert_eq!(states.len(), 3 * 19);
+    assert_eq!(states.len(), 3 * 20);
     for state in states {
         let name = state["name"].as_str().unwrap();
         let size_px = [0, 1].map(|i| state["size"][i].as_u64().unwrap() as u32);
@@ -36,6 +36,7 @@ fn each_state_of_the_interface_fits_the_window() {
             "formula window",
             "look preview",
             "notice",
+            "saving",
             "panel",
             "timeline",
             "variations",
