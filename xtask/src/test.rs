@@ -3,6 +3,7 @@
 use std::{
     env,
     process::Command,
+    thread,
     time::{SystemTime, UNIX_EPOCH},
 };
 
@@ -12,6 +13,9 @@ use crate::{check, deny, need, page, shell};
 
 /// The environment variable with the seed of random numbers of tests.
 const SEED_VARIABLE: &str = "MANDELIGHT_SEED";
+
+/// The arguments of cargo for the package's tests.
+const TESTS: [&str; 5] = ["test", "--lib", "--bins", "--tests", "--no-fail-fast"];
 
 /// Runs all checks and tests to the end, and fails if any failed.
 ///
@@ -28,17 +32,22 @@ pub fn test() -> Result<()> {
         }
     };
 
-    note(check::check());
-    note(deny::advisories_if_reachable());
+    // Linking the page takes minutes on one core: the checks and the compilation of the tests go on beside it.
+    let dist = thread::scope(|scope| {
+        let dist = scope.spawn(page::dist);
+        note(check::check());
+        note(deny::advisories_if_reachable());
+        note(shell::cargo().and_then(|mut cargo| shell::run(cargo.args(TESTS).arg("--no-run"))));
+        dist.join().unwrap_or_else(|_| bail!("the build of the page panicked"))
+    });
     // If the build fails, the browser test must not run with an old page.
-    let dist = page::dist();
     let folder = dist.as_ref().ok().cloned();
     note(dist.map(drop));
 
     let runs: [&[&str]; 3] = [
         &["test", "--package", "xtask", "--no-fail-fast"],
         &["test", "--doc", "--no-fail-fast"],
-        &["test", "--lib", "--bins", "--tests", "--no-fail-fast"],
+        &TESTS,
     ];
     for run in runs {
         let mut cargo = shell::cargo()?;
