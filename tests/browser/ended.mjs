@@ -2,9 +2,9 @@
 // theirs again.
 
 import { Mandelight } from "./mandelight.mjs";
-import { Visit, visit } from "./visit.mjs";
+import { COARSE, Visit, visit } from "./visit.mjs";
 
-await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
   const stored = (key) => v.tab.evaluate((name) => localStorage.getItem(name) ?? "", key);

@@ -4,7 +4,7 @@ import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 
 import { Mandelight } from "./mandelight.mjs";
-import { visit } from "./visit.mjs";
+import { COARSE, visit } from "./visit.mjs";
 
 const GOOD = process.env.MANDELIGHT_FILES;
 const DAMAGED = new URL("./damaged/", import.meta.url).pathname;
@@ -12,7 +12,7 @@ const DAMAGED = new URL("./damaged/", import.meta.url).pathname;
 /** Seconds that a decoder without end has. */
 const LOOP_SECS = 10;
 
-await visit({ context: { viewport: { width: 640, height: 420 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 640, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   await page.open();
   await page.redrawn(() => v.tab.evaluate(() => {

@@ -1,9 +1,9 @@
 // Pictures saved in each format of the menu: of a size that the view does not have, then of the finished view.
 
 import { Mandelight } from "./mandelight.mjs";
-import { visit } from "./visit.mjs";
+import { COARSE, visit } from "./visit.mjs";
 
-await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   await v.tab.goto(`${v.address}licenses.txt`);
   const settings = { more_open: true, sections: { export: true }, export: { times: 0, typed_px: [64, 40] } };

@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Mandelight } from "./mandelight.mjs";
 import { unzipped } from "./unzip.mjs";
-import { visit } from "./visit.mjs";
+import { COARSE, visit } from "./visit.mjs";
 
 const LOSSES = "mandelight.losses";
 const SETTINGS = "mandelight.settings";
@@ -13,7 +13,7 @@ const SETTINGS = "mandelight.settings";
 /** Seconds in which the page's clock goes on by one. */
 const SLOWNESS = 4;
 
-await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const lose = () => v.tab.evaluate(() => window.mandelight.loseDevice());
   const forget = () => v.tab.evaluate((key) => localStorage.removeItem(key), LOSSES);
@@ -33,6 +33,11 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const quick = JSON.parse(await page.scene());
   quick.scene.quality.samples = 1;
   await page.show(JSON.stringify(quick));
+  /** Shows the quick scene in another light, so that its picture is not the one on the screen. */
+  const showAnother = () => {
+    quick.scene.tone.exposure += 0.125;
+    return page.show(JSON.stringify(quick));
+  };
 
   await v.timed("at_rest", async () => {
     v.seen.before = await page.scene();
@@ -148,7 +153,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   // Twice in a row: the page waits for the visitor, whose first movement goes on.
   await v.timed("twice", async () => {
     await forget();
-    await page.show(JSON.stringify(quick));
+    await showAnother();
     await lose();
     await noted(1);
     await v.until("the new device", () => v.tab.evaluate(() => window.mandelight.hasDevice()));
@@ -166,7 +171,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   // scene by themselves.
   await v.timed("ten_times", async () => {
     await forget();
-    await page.show(JSON.stringify(quick));
+    await showAnother();
     await new Promise((resolve) => setTimeout(resolve, 1500));
     v.seen.lost = await page.scene();
     v.seen.given_up = 0;

@@ -2,12 +2,12 @@
 
 import { readdir } from "node:fs/promises";
 import { Mandelight } from "./mandelight.mjs";
-import { visit } from "./visit.mjs";
+import { COARSE, visit } from "./visit.mjs";
 
 /** What the build puts into the names of files that browsers keep. */
 const HASH = /-[0-9a-f]{12}\./;
 
-await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 480, height: 320 } } }, async (v) => {
   const page = new Mandelight(v);
   await v.tab.goto(`${v.address}?test&offline`);
   await page.firstPicture();

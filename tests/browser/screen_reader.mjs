@@ -3,9 +3,9 @@
 
 import { join } from "node:path";
 import { Mandelight } from "./mandelight.mjs";
-import { visit } from "./visit.mjs";
+import { COARSE, visit } from "./visit.mjs";
 
-await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+await visit({ context: { ...COARSE, viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
   await page.open();

@@ -29,6 +29,9 @@ const SOFTWARE_GPU = [
   "--ignore-gpu-blocklist",
 ];
 
+/** Context of visits whose pictures nobody looks at: a software GPU draws a quarter of the pixels in half the time. */
+export const COARSE = { deviceScaleFactor: 0.5 };
+
 const POLL_MS = 50;
 
 /** Longest wait for anything: only what hangs takes that long, on a busy machine with a software GPU too. */
