@@ -142,12 +142,14 @@ async function keepOffline() {
     element("update").hidden = true;
     element("mandelight").focus();
   };
-  // Tab goes round the interface's own controls, so another key leads to the offer.
+  // Tab stays within the canvas's controls. F6 moves between them and the offer.
   const goToOffer = (event) => {
-    if (event.key !== "F6" || element("update").hidden) return;
+    const { key, ctrlKey, altKey, metaKey, shiftKey } = event;
+    if (key !== "F6" || ctrlKey || altKey || metaKey || shiftKey || element("update").hidden) return;
     event.preventDefault();
     event.stopPropagation();
-    element("update-now").focus();
+    const isInOffer = element("update").contains(document.activeElement);
+    element(isInOffer ? "mandelight" : "update-now").focus();
   };
   window.addEventListener("keydown", goToOffer, { capture: true });
   workers.addEventListener("controllerchange", () => isAccepted && location.reload());

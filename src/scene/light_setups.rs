@@ -80,8 +80,9 @@ fn sky(_: &Camera) -> Lights {
 
 fn candle(camera: &Camera) -> Lights {
     let unit = camera.view_unit();
-    // In a square picture too, whose edge is at 0.36 of the depth.
-    let offset = DVec3::new(-0.17, -0.08, -0.52) * unit;
+    // Inside a square picture's left edge, at any field of view.
+    let edge = camera.half_height(1.0);
+    let offset = DVec3::new(-0.9 * edge, -0.42 * edge, -1.0) * (0.52 * unit);
     let position = camera.position.moved_by(camera.rotation() * offset, 1e-4 * unit);
     let distance = (&position - &camera.pivot).length();
     let lamp = PointLight {
@@ -101,6 +102,17 @@ fn candle(camera: &Camera) -> Lights {
 mod tests {
     use super::*;
     use crate::scene::{Scene, presets};
+
+    #[test]
+    fn the_candle_is_in_the_picture() {
+        for preset in presets::all() {
+            let camera = (preset.scene)().camera;
+            let lamp = &candle(&camera).point[0];
+            let seen = camera.rotation().inverse() * (&lamp.position - &camera.position);
+            let edge = camera.half_height(1.0) * -seen.z;
+            assert!(seen.z < 0.0 && seen.x.abs().max(seen.y.abs()) < edge, "{}", preset.name);
+        }
+    }
 
     #[test]
     fn every_setup_is_valid_in_every_view() {

@@ -2,7 +2,8 @@
 //!
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. The handle of a directional light or of a sky's sun is on a ball around the picture's
-//! middle, as a dot is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
+//! middle, as a dot is on the panel's ball. Arrow keys do the same while the handle or the light's row, which the
+//! sun lacks, has the focus.
 //! A section plane moves along its normal, by a drag or by arrow keys. What is behind the eye has no handle.
 
 use egui::{Color32, Id, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
@@ -96,14 +97,14 @@ fn key_delta(steps: ArrowSteps) -> Vec2 {
     Vec2::new(steps.right as f32, -steps.up as f32) * KEY_POINTS
 }
 
-/// Radius of the ball around the picture's middle on which directional lights are, as a part of the
+/// Radius of the ball around the picture's middle on which directional lights and the sun are, as a part of the
 /// picture's shorter side.
 const BALL_PART: f32 = 0.42;
 
 /// What was done to handles in a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HandleInteraction {
-    /// The clicked or dragged light.
+    /// The clicked or dragged light; none for the sun, which can't be selected.
     pub touched: Option<LightRef>,
     /// True if the pointer is at a handle, or the keyboard is used at one.
     pub is_held: bool,

@@ -1,4 +1,4 @@
-//! When directional lights have handles in the view: while a person works on lights, and shortly after.
+//! When directional lights and a sky's sun have handles in the view: while a person works on lights, and shortly after.
 
 use egui::{Event, Response, Ui};
 

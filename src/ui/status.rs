@@ -133,17 +133,17 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         }
         Activity::Refining => {
             let sample = (report.samples_done + 1).min(report.samples_wanted.max(1));
-            // As above: the picture is free of noise only if all pixels are.
+            // Rounded down: 100 % would mean a finished picture.
             let percent = |part: f32| (100.0 * part).clamp(0.0, 99.0).floor();
-            let smooth = report
+            let noise_free = report
                 .converged_fraction
-                .map_or_else(String::new, |part| format!(", {} % free of noise", percent(part)));
-            let smooth = smooth + &clamped(report);
+                .map_or_else(String::new, |part| format!(", {} % noise-free", percent(part)));
+            let noise_free = noise_free + &clamped(report);
             if short {
-                format!("Sharp, {sample}/{}{smooth}", report.samples_wanted)
+                format!("Sharp, {sample}/{}{noise_free}", report.samples_wanted)
             } else {
                 format!(
-                    "Sharp, getting smoother: sample {sample} of {}{smooth}, {}",
+                    "Sharp, getting smoother: sample {sample} of {}{noise_free}, {}",
                     report.samples_wanted,
                     duration_text(report.elapsed_secs)
                 )

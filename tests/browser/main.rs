@@ -177,7 +177,7 @@ fn a_page_that_was_open_once_works_without_a_connection() {
     assert_eq!(visit.text("/other"), "Mandelight");
     assert_eq!(
         visit.seen["by_keys"],
-        serde_json::json!(["update-now", "update-later", "mandelight"])
+        serde_json::json!(["update-now", "mandelight", "update-later", "mandelight"])
     );
     for what in ["offered", "put_off", "reloaded", "renewed", "second"] {
         assert_eq!(visit.seen[what], true, "{what}");

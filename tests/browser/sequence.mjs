@@ -5,9 +5,9 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Mandelight } from "./mandelight.mjs";
 import { unzipped } from "./unzip.mjs";
-import { COARSE, visit } from "./visit.mjs";
+import { visit } from "./visit.mjs";
 
-await visit({ context: { ...COARSE, viewport: { width: 720, height: 420 } } }, async (v) => {
+await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
   const document = process.env.MANDELIGHT_PATH;

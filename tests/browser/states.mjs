@@ -11,19 +11,19 @@ const DEVICES = [
 
 /** Pixels of the view for each of its samples: a software GPU takes most of a minute for a whole sample, in each state. */
 const MOST_PIXELS = 8;
-/** The same for the first state: what a stranger sees first. */
+/** As MOST_PIXELS, for the opening picture, which is shown sharper. */
 const MOST_PIXELS_AT_FIRST = 2;
 
 /** Small pictures that a state waits for: a software GPU takes minutes for those of all variations. */
 const SMALL_PICTURES = 2;
 
 /**
- * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too,
- * whether it shows small pictures of its own, a box that is ticked first, and a key that is pressed then. (Variations keep the shape: software GPUs
- * compile the kernels of others for long.)
+ * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too, whether it
+ * shows small pictures of its own, a box that is ticked first, and a second key that is pressed there.
+ * (Variations keep the shape: software GPUs compile the kernels of others for long.)
  */
 const STATES = [
-  { name: "timeline", key: "t", rect: "timeline", isToggle: true, then: "k" },
+  { name: "timeline", key: "t", rect: "timeline", isToggle: true, secondKey: "k" },
   { name: "share", key: "j", rect: "share window" },
   { name: "mutate", key: "m", rect: "variations", hasPictures: true, ticked: "Keep: Shape" },
   { name: "find", key: "Control+k", rect: "find window", words: "light" },
@@ -186,11 +186,11 @@ async function photograph(v, { sizes, context: { hasTouch } }) {
   };
 
   const ofKeys = async () => {
-    for (const { name, key, rect, words, isToggle, hasPictures, ticked, then } of STATES) {
+    for (const { name, key, rect, words, isToggle, hasPictures, ticked, secondKey } of STATES) {
       await v.tab.keyboard.press(key);
       await page.rested(name, () => page.rect(rect));
       if (ticked) await tick(ticked);
-      if (then) await page.changed(then, () => v.tab.keyboard.press(then));
+      if (secondKey) await page.changed(secondKey, () => v.tab.keyboard.press(secondKey));
       if (words) await v.tab.keyboard.type(words);
       if (hasPictures) await page.smallPictures(SMALL_PICTURES);
       await shootRefined(name);

@@ -29,7 +29,8 @@ const SOFTWARE_GPU = [
   "--ignore-gpu-blocklist",
 ];
 
-/** Context of visits whose pictures nobody looks at: a software GPU draws a quarter of the pixels in half the time. */
+/** Context of visits whose screenshots show only failures: half the pixels per CSS pixel, a quarter of the work. Names of
+ * screenshots give CSS pixels. */
 export const COARSE = { deviceScaleFactor: 0.5 };
 
 const POLL_MS = 50;

@@ -56,7 +56,7 @@ fn the_comparison_ends_and_what_is_in_view_stays() {
     assert_eq!(*scene(&harness), kept);
 }
 
-/// Who knows no keys compares by buttons, and words say which state is in view.
+/// Buttons do all that the keys do: they compare two states and show the view before the last change.
 #[test]
 fn buttons_compare_two_states_and_show_the_one_before() {
     for (size, has_touch) in [

@@ -145,7 +145,12 @@ fn a_light_setup_that_was_chosen_has_handles() {
             harness.key_press(Key::ArrowRight);
             harness.run_steps(3);
             let after = scene(&harness).lights.clone();
-            assert_ne!(after, before, "{handle} of {}", setup.name);
+            let (old, new) = (&before, &after);
+            let moved =
+                old.environment.iter().zip(&new.environment).filter(|(a, b)| a != b).count()
+                    + old.point.iter().zip(&new.point).filter(|(a, b)| a != b).count()
+                    + usize::from(old.rig != new.rig);
+            assert_eq!(moved, 1, "{handle} of {}", setup.name);
             harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
             harness.run_steps(3);
             assert_eq!(scene(&harness).lights, before, "{handle} of {} is one step", setup.name);

@@ -205,7 +205,12 @@ impl Interface {
         for tool in in_row {
             let button = buttons.add(ui, tool.button);
             self.rects.record(tool.rect, &button);
-            if tool.command == Command::FindPlaces && self.places.are_shown() {
+            let is_on = match tool.command {
+                Command::FindPlaces => self.places.are_shown(),
+                Command::Compare => self.compare.is_on(),
+                _ => false,
+            };
+            if is_on {
                 floating::mark(ui, &button);
             }
             self.use_tool(tool, &button, commands);
@@ -234,8 +239,8 @@ impl Interface {
         buttons
     }
 
-    /// Runs the command of a tool that was clicked, and returns whether it was. A tool that is held runs its command
-    /// only by keys and screen readers, which hold nothing.
+    /// Runs the command of a clicked tool, and returns whether it ran. A pointer shows the view before the last change
+    /// while it is down; Enter or a screen reader's click runs the command, which lasts two seconds.
     fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
         let is_by_pointer = button.ctx.input(|input| input.pointer.any_released());
         self.is_comparing |= tool.is_held && button.is_pointer_button_down_on();
@@ -279,7 +284,11 @@ impl Interface {
             let animate = tool(Icon::Timeline, hover, "Animate", "timeline toggle", command);
             tools.insert(at, animate);
         }
-        let hover = ("Compare", "Keep this state as A and edit a copy, B; then switch (Shift C)");
+        let hover = if self.compare.is_on() {
+            ("Compare", "Switch between the states A and B (Shift C)")
+        } else {
+            ("Compare", "Keep this state as A and edit a copy, B (Shift C)")
+        };
         let compare = Command::Compare;
         tools.push(tool(Icon::Halves, hover, "Compare", "compare toggle", compare));
         let hover = ("Before", "Hold to see the view before the last change (C)");
@@ -295,6 +304,6 @@ struct Tool {
     rect: &'static str,
     /// What a click runs.
     command: Command,
-    /// True if the view shows its effect while a pointer holds it.
+    /// True if a pointer uses the tool by holding it down, not by a click.
     is_held: bool,
 }

@@ -21,7 +21,7 @@ pub struct Section {
     pub hover: &'static str,
     /// Draws the panel.
     pub show: fn(&mut Ui, &mut Context<'_>),
-    /// Restores the section's values to those of a new scene, or of a first visit if they belong to no scene.
+    /// Restores the section's default values: those of a new scene, or of a first visit for settings outside the scene.
     pub reset: fn(&mut Context<'_>),
 }
 

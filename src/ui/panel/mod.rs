@@ -272,7 +272,7 @@ fn reset_button(ui: &mut Ui, cx: &mut Context<'_>, section: &Section) {
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         let text = RichText::new("Reset").small().color(theme::TEXT_DIM);
-        let response = ui.button(text).help(format!("{title}: back to the values at the start"));
+        let response = ui.button(text).help(format!("Sets {title} back to its default values"));
         if response.clicked() {
             reset(cx);
         }
