@@ -1,7 +1,7 @@
 // Visits with a storage that is damaged, another version's, full, blocked, or shared by two tabs.
 
 import { Mandelight } from "./mandelight.mjs";
-import { COARSE, Visit, visit } from "./visit.mjs";
+import { Visit, visit } from "./visit.mjs";
 
 /** Damaged texts: bytes that are no JSON, JSON of other kinds, and halves of what was stored. */
 const DAMAGED = [
@@ -19,7 +19,7 @@ const PERMANENT = [
 ];
 const OF_TAB = ["mandelight.tab", "mandelight.steps"];
 
-await visit({ context: { ...COARSE, viewport: { width: 800, height: 480 } } }, async (v) => {
+await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
   v.seen.notices = {};

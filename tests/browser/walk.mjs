@@ -2,7 +2,7 @@
 // are cancelled. Rounds of it are compared: what the page and the GPU hold must not grow.
 
 import { Mandelight } from "./mandelight.mjs";
-import { COARSE, visit } from "./visit.mjs";
+import { visit } from "./visit.mjs";
 
 const SIZE = { width: 480, height: 320 };
 const SIZES = [SIZE, { width: 320, height: 480 }, { width: 1, height: 1 }, { width: 844, height: 390 }, { width: 200, height: 60 }];
@@ -28,7 +28,7 @@ function random(seed) {
   };
 }
 
-await visit({ context: { ...COARSE, viewport: SIZE, acceptDownloads: true } }, async (v) => {
+await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) => {
   const page = new Mandelight(v);
   const unit = random(SEED);
   const below = (limit) => Math.floor(unit() * limit);
