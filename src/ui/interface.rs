@@ -293,7 +293,7 @@ impl Interface {
         let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
         self.notices(ui, inputs, now_secs, &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch, &mut self.rects);
-        if let Some(view) = self.rects.get("view") {
+        if let Some(view) = view {
             let project = self.editor.project();
             let shared = self.share.show(ui, view, project, inputs.sharing, &mut self.rects);
             commands.extend(shared);

@@ -335,7 +335,7 @@ fn tools_have_words_in_wide_pictures() {
         let harness = stage(presets::opening(), Settings::default(), size);
         let view = harness.state().interface.rects().get("view").expect("the view");
         let has_menu = harness.query_by_label("More tools").is_some();
-        assert_eq!(has_menu, size[0] < 700.0, "all have room but in {size:?}");
+        assert_eq!(has_menu, size[0] < 700.0, "only a narrow picture has a menu: {size:?}");
         for (name, word) in [
             ("Animate", "Animate"),
             ("Surprise me", "Surprise"),
@@ -346,7 +346,8 @@ fn tools_have_words_in_wide_pictures() {
             ("Compare", "Compare"),
             ("Before", "Before"),
         ] {
-            if has_menu && harness.query_by_label(name).is_none() {
+            // The least used are in the menu, if there is one.
+            if has_menu && ["Compare", "Before"].contains(&name) {
                 continue;
             }
             let tool = button(&harness, name).rect();
