@@ -32,9 +32,10 @@ mod types;
 mod work;
 
 use adaptation::{ADAPT_INTERVAL_SECS, ADAPT_SHARE, Adaptation};
-use completion::{InFlight, MAX_IN_FLIGHT, Piece};
+use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
+pub use interface_frames::InterfaceFrame;
 use interface_frames::{FRAME_SHARE, InterfaceFrames};
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
@@ -295,10 +296,10 @@ impl Schedule {
     /// None where enough is in flight, where the last picture of a movement has been shown, while a frame of the
     /// interface is measured, or where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        if self.in_flight.len() >= MAX_IN_FLIGHT || self.interface_frames.is_holding(now_secs) {
+        let phase = self.phase();
+        if self.in_flight.len() >= self.interface_frames.max_in_flight(phase, now_secs) {
             return None;
         }
-        let phase = self.phase();
         let work = self.choose(now_secs)?;
         let expected_ms = match work {
             Work::Trace(trace) => self.cost.expected_ms(trace.job(), phase, trace.samples()),
@@ -323,11 +324,9 @@ impl Schedule {
         self.interface_frames.request(is_refining, self.in_flight.is_empty(), now_secs)
     }
 
-    /// Notes that a frame of the interface has been submitted. `is_only_work`: nothing but this picture and the interface
-    /// use the GPU.
-    pub fn frame_submitted(&mut self, is_only_work: bool, now_secs: f64) {
-        let is_free = is_only_work && self.in_flight.is_empty();
-        self.interface_frames.submitted(is_free, now_secs);
+    /// Notes that a frame of the interface has been submitted.
+    pub fn frame_submitted(&mut self, frame: InterfaceFrame, now_secs: f64) {
+        self.interface_frames.submitted(frame, !self.in_flight.is_empty(), now_secs);
     }
 
     /// What the next piece of work is for.

@@ -86,6 +86,11 @@ impl EnvironmentLight {
         Self { frame: LightFrame::View, ..Self::new(direction, color, intensity) }
     }
 
+    /// Whether the light shines, given whether [any light](super::Lights::any_solo) is solo.
+    pub fn shines(&self, any_solo: bool) -> bool {
+        shines(self.muted, self.solo, any_solo)
+    }
+
     /// The unit vector toward the light, in the camera's frame.
     pub fn toward_light_in_view(&self, camera: &Camera) -> DVec3 {
         self.frame.to_view(self.direction, camera)
@@ -113,6 +118,11 @@ impl Default for EnvironmentLight {
     }
 }
 
+/// Whether a light shines: `any_solo` says whether [any light](super::Lights::any_solo) is solo.
+pub(super) fn shines(muted: bool, solo: bool, any_solo: bool) -> bool {
+    !muted && (solo || !any_solo)
+}
+
 /// A point light, or a glowing ball; its light falls with the square of the distance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -131,6 +141,13 @@ pub struct PointLight {
     pub muted: bool,
     /// While any light is solo, only solo lights shine.
     pub solo: bool,
+}
+
+impl PointLight {
+    /// Whether the light shines, given whether [any light](super::Lights::any_solo) is solo.
+    pub fn shines(&self, any_solo: bool) -> bool {
+        shines(self.muted, self.solo, any_solo)
+    }
 }
 
 impl Default for PointLight {

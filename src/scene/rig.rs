@@ -13,8 +13,9 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    camera::Camera,
     environment_map::EnvironmentMap,
-    light::{LightFrame, MAX_LIGHTS},
+    light::{self, LightFrame, MAX_LIGHTS},
     param,
 };
 use crate::reading::at_most;
@@ -148,6 +149,21 @@ impl Rig {
     /// True if the rig has no lights.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Whether the rig shines, given whether [any light](super::Lights::any_solo) is solo.
+    pub fn shines(&self, any_solo: bool) -> bool {
+        light::shines(self.muted, self.solo, any_solo)
+    }
+
+    /// The unit vector toward the sky's sun, in the camera's frame.
+    pub fn toward_sun_in_view(&self, camera: &Camera) -> DVec3 {
+        self.frame.to_view(self.sky.sun_direction, camera)
+    }
+
+    /// Sets the sun's direction from a vector toward it in the camera's frame, of any length.
+    pub fn set_toward_sun_in_view(&mut self, in_view: DVec3, camera: &Camera) {
+        self.sky.sun_direction = self.frame.from_view(in_view, camera);
     }
 
     /// The lights in the rig's frame: unit vectors toward the lights, and strengths.

@@ -83,7 +83,7 @@ pub fn point_lights(
         if let Some(steps) = arrow_steps(ui, &response) {
             move_by(key_delta(steps), steps.is_shifted);
         }
-        let shines = !light.muted && (!any_solo || light.solo);
+        let shines = light.shines(any_solo);
         let is_held = response.hovered() || response.dragged() || response.has_focus();
         let lit = is_held || selected.light == Some(this);
         paint(ui, at, theme::display_color(light.color), shines, false, lit);
@@ -132,7 +132,7 @@ pub fn environment_lights(
                 name: format!("{} in the view", this.name()),
                 id: ui.scope_id().with(("light", index)),
                 color: theme::display_color(light.color),
-                shines: !light.muted && (!any_solo || light.solo),
+                shines: light.shines(any_solo),
                 is_selected: selected.light == Some(this),
             };
             let used = handle.show(ui, frame, &mut toward_light);
@@ -144,18 +144,17 @@ pub fn environment_lights(
         }
         let rig = &mut lights.rig;
         if rig.kind == RigKind::Sky {
-            let is_on = !rig.muted && (!any_solo || rig.solo);
             let handle = DirectionHandle {
                 name: "Sun in the view".to_owned(),
                 id: ui.scope_id().with("sun"),
                 color: theme::display_color(rig.sky.sun_color),
-                shines: is_on && rig.sky.sun_strength > 0.0,
+                shines: rig.shines(any_solo) && rig.sky.sun_strength > 0.0,
                 is_selected: false,
             };
-            let mut toward_sun = rig.frame.to_view(rig.sky.sun_direction, camera);
+            let mut toward_sun = rig.toward_sun_in_view(camera);
             let used = handle.show(ui, frame, &mut toward_sun);
             if used.is_turned {
-                rig.sky.sun_direction = rig.frame.from_view(toward_sun, camera);
+                rig.set_toward_sun_in_view(toward_sun, camera);
             }
             interaction.is_held |= used.is_held;
         }

@@ -23,7 +23,7 @@ use super::{
 };
 use crate::{
     gpu::Gpu,
-    render::{Activity, Pipelines, Report},
+    render::{Activity, InterfaceFrame, Pipelines, Report},
     ui::{self, SmallTextures, StillFile, StillFormat, loss_policy::SafeMode},
 };
 
@@ -307,7 +307,8 @@ fn tick() {
     // Timed before this tick submits work, which would be counted as the frame's.
     if std::mem::take(&mut engine.has_drawn) {
         let is_only_work = engine.is_view_drawn;
-        engine.view.time_frame(is_only_work, page::now_secs());
+        let has_input = engine.context.input(|input| !input.events.is_empty());
+        engine.view.time_frame(InterfaceFrame { is_only_work, has_input }, page::now_secs());
     }
     let busy = engine.step(&mut session, page::now_secs());
     engine.request_repaint(busy, &session.status.report);

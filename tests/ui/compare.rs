@@ -1,7 +1,10 @@
 //! Two states that are compared: each keeps its edits, and the change between them is a step.
 
 use egui::{Key, Modifiers, PointerButton};
-use egui_kittest::{Harness, kittest::Queryable as _};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 use mandelight::{scene::presets, ui::Settings};
 
 use crate::stage::*;
@@ -70,6 +73,11 @@ fn buttons_compare_two_states_and_show_the_one_before() {
         if has_touch {
             touch(&mut harness);
         }
+        if harness.query_by_label("Before").is_none() {
+            press(&mut harness, "More tools");
+        }
+        let nothing_changed = harness.get_by_label("Before");
+        assert!(nothing_changed.accesskit_node().is_disabled(), "{size:?}");
         press_tool(&mut harness, "Compare");
         harness.get_by_label("B is in view: the copy of A. Edits change B.");
         press(&mut harness, "State A");

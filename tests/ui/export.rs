@@ -6,8 +6,8 @@ use mandelight::{
     export::jpeg,
     scene::presets,
     ui::{
-        Action, DEFAULT_QUALITY, ExportProgress, ExportSize, SequenceFormat, Settings, StillFile,
-        StillFormat,
+        Action, DEFAULT_QUALITY, ExportProgress, ExportSize, Notice, SequenceFormat, Settings,
+        StillFile, StillFormat,
     },
 };
 
@@ -117,7 +117,7 @@ fn a_file_that_is_saved_out_of_sight_can_be_cancelled() {
     }
 }
 
-/// Messages lie below the bar of a comparison, in a low window too.
+/// Messages lie below the bar of a comparison and over no other message, in a low window too.
 #[test]
 fn messages_leave_a_comparison_free() {
     for size in [[1280.0, 720.0], [390.0, 844.0], [844.0, 390.0], [640.0, 420.0]] {
@@ -127,15 +127,23 @@ fn messages_leave_a_comparison_free() {
         }
         harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
         harness.run();
-        harness.state_mut().export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
+        let stage = harness.state_mut();
+        stage.export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
+        stage.reading = Some("evening.exr".to_owned());
+        stage.notice = Some(Notice { text: "Link copied.".to_owned(), ..Notice::default() });
         harness.run();
         let rects = harness.state().interface.rects();
         let [bar, view] = ["compare", "view"].map(|name| rects.get(name).expect(name));
-        if let Some(message) = rects.get("saving") {
-            assert!(!message.intersects(bar), "{size:?}: {message:?} over {bar:?}");
-            assert!(view.contains_rect(message), "{size:?}: {message:?} in {view:?}");
+        let shown = |name: &&str| rects.get(name).map(|message| (name.to_string(), message));
+        let messages: Vec<_> = ["notice", "saving", "reading"].iter().filter_map(shown).collect();
+        for (index, (name, message)) in messages.iter().enumerate() {
+            assert!(!message.intersects(bar), "{size:?}: {name} {message:?} over {bar:?}");
+            assert!(view.contains_rect(*message), "{size:?}: {name} {message:?} in {view:?}");
+            let over = messages[..index].iter().find(|(_, other)| other.intersects(*message));
+            assert_eq!(over, None, "{size:?}: {name} {message:?}");
         }
-        assert_eq!(rects.get("saving").is_some(), size[0] < 1000.0, "{size:?}");
+        // In a wide window the panel tells of the saving.
+        assert_eq!(messages.len(), if size[0] < 1000.0 { 3 } else { 2 }, "{size:?}: {messages:?}");
     }
 }
 

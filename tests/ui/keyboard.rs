@@ -1,7 +1,10 @@
 //! The interface by keyboard and screen reader: the order of the Tab key, and names.
 
 use egui::{Key, Rect, accesskit::Action};
-use egui_kittest::{Harness, kittest::NodeT as _};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 use mandelight::{scene::Scene, ui::Settings};
 
 use crate::stage::*;
@@ -202,4 +205,28 @@ fn the_arrow_keys_turn_the_view_that_has_the_keyboard() {
     harness.key_press(Key::Tab);
     harness.run();
     assert!(!is_at_view(&harness));
+}
+
+/// The menu of the tools that do not fit their row gives the keyboard back to its button, after a choice and without one.
+#[test]
+fn a_closed_menu_gives_the_keyboard_back() {
+    let size = [640.0, 420.0];
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), size));
+    for keys in [&[Key::Escape][..], &[Key::Tab, Key::Enter]] {
+        harness.get_by_label("More tools").focus();
+        harness.run();
+        harness.key_press(Key::Enter);
+        harness.run();
+        harness.get_by_label("Compare");
+        for &key in keys {
+            harness.key_press(key);
+            harness.run();
+        }
+        let focused = focused(&harness);
+        assert!(harness.query_by_label("Compare").is_none(), "{keys:?}: the menu is open");
+        assert!(
+            focused.as_ref().is_some_and(|(name, _)| name == "More tools"),
+            "{keys:?}: {focused:?}"
+        );
+    }
 }

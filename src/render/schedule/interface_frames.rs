@@ -1,8 +1,11 @@
-//! Times of the interface's frames: now and then a frame has the GPU to itself.
+//! What pieces of work leave to frames of the interface.
 //!
-//! Beside pieces of work a frame cannot be measured: browsers count most of its time as the piece before or after it.
+//! Now and then a frame has the GPU to itself and is measured. Beside pieces of work it cannot be: browsers count most of its
+//! time as the piece before or after it. After input, a frame waits for one piece instead of two.
 
 use std::collections::VecDeque;
+
+use super::{completion::MAX_IN_FLIGHT, types::Phase};
 
 /// Largest part of GPU time that frames of the interface take which only report progress.
 pub const FRAME_SHARE: f64 = 0.1;
@@ -16,6 +19,18 @@ const FIRST_MEASURED: u32 = 2;
 /// Longest time that work waits for a frame, seconds: a page out of sight draws none.
 const MAX_HOLD_SECS: f64 = 3.0;
 
+/// Time after input within which frames answer it, seconds: a click can take some frames.
+const ANSWER_SECS: f64 = 0.3;
+
+/// A frame of the interface that has been submitted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct InterfaceFrame {
+    /// Whether nothing but the picture's work and the interface use the GPU.
+    pub is_only_work: bool,
+    /// Whether it had input: someone waits for the answer, in this frame or the next ones.
+    pub has_input: bool,
+}
+
 /// The interface's frames in flight, and whether work waits for one.
 #[derive(Clone, Debug, Default)]
 pub struct InterfaceFrames {
@@ -27,12 +42,28 @@ pub struct InterfaceFrames {
     measured: u32,
     /// Frames since the last measured one.
     since_measured: u32,
+    /// When the last frame with input was submitted; none before the first.
+    input_at_secs: Option<f64>,
 }
 
 impl InterfaceFrames {
     /// Whether work waits for a frame at `now_secs`.
     pub fn is_holding(&self, now_secs: f64) -> bool {
         self.held_since_secs.is_some_and(|since| now_secs - since < MAX_HOLD_SECS)
+    }
+
+    /// Most pieces of work in flight at `now_secs`: each one delays a frame that answers input.
+    ///
+    /// Pictures that someone waits for come before the interface.
+    pub fn max_in_flight(&self, phase: Phase, now_secs: f64) -> usize {
+        let is_answering = self.input_at_secs.is_some_and(|at| now_secs - at < ANSWER_SECS);
+        if self.is_holding(now_secs) {
+            0
+        } else if is_answering && phase == Phase::Refining {
+            1
+        } else {
+            MAX_IN_FLIGHT
+        }
     }
 
     /// Lets work go on: no frame is measured.
@@ -59,10 +90,14 @@ impl InterfaceFrames {
         !self.is_holding(now_secs) || (is_free && self.in_flight.is_empty())
     }
 
-    /// Notes that a frame has been submitted. `is_free`: no work is in flight, of this picture or another.
-    pub fn submitted(&mut self, is_free: bool, now_secs: f64) {
+    /// Notes that a frame has been submitted. `is_busy`: work of this picture is in flight.
+    pub fn submitted(&mut self, frame: InterfaceFrame, is_busy: bool, now_secs: f64) {
+        let is_free = frame.is_only_work && !is_busy;
         let is_alone = is_free && self.is_holding(now_secs) && self.in_flight.is_empty();
         self.in_flight.push_back(is_alone);
+        if frame.has_input {
+            self.input_at_secs = Some(now_secs);
+        }
     }
 
     /// Whether the next frame is to be measured.

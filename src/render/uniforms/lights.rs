@@ -20,8 +20,7 @@ const FAR_VIEWS: f64 = 1e6;
 pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     let shining = follow::effective(&scene.lights, &scene.camera);
     let any_solo = shining.any_solo();
-    let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
-        let shines = !muted && (solo || !any_solo);
+    let color = |[r, g, b]: [f32; 3], intensity: f64, shines: bool| {
         let strength = if shines { intensity as f32 } else { 0.0 };
         [r * strength, g * strength, b * strength]
     };
@@ -33,7 +32,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     };
     let environment = shining.environment.iter().map(|light| {
         let direction = DVec3::from_array(light.direction);
-        let radiance = color(light.color, light.intensity, light.muted, light.solo);
+        let radiance = color(light.color, light.intensity, light.shines(any_solo));
         Light {
             vector: in_world(light.frame, direction),
             kind: 0,
@@ -60,7 +59,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
         Light {
             vector: vector.as_vec3().to_array(),
             kind,
-            color: color(light.color, strength.min(1e30), light.muted, light.solo),
+            color: color(light.color, strength.min(1e30), light.shines(any_solo)),
             casts_shadows,
             shadow_reach: if kind == 0 {
                 (way.length() - radius).clamp(0.0, 1e30) as f32
@@ -73,7 +72,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     });
     let rig = &shining.rig;
     let rig_lights = rig.lights().into_iter().map(|(direction, strength)| {
-        let radiance = color(strength.as_vec3().to_array(), 1.0, rig.muted, rig.solo);
+        let radiance = color(strength.as_vec3().to_array(), 1.0, rig.shines(any_solo));
         Light {
             vector: in_world(rig.frame, direction),
             kind: 0,

@@ -48,7 +48,7 @@ pub fn add_sky(paths: &mut PathTracing, scene: &Scene, space: &RenderSpace, sky:
     let shining = follow::effective(&scene.lights, &scene.camera);
     let rig = &shining.rig;
     paths.light_count -= rig.len() as u32;
-    if rig.muted || (shining.any_solo() && !rig.solo) {
+    if !rig.shines(shining.any_solo()) {
         return;
     }
     let view_unit = scene.camera.view_unit() / space.scale();

@@ -203,7 +203,8 @@ impl Interface {
         let in_row = if tools.len() > capacity { capacity - 1 } else { tools.len() };
         let (in_row, in_menu) = tools.split_at(in_row);
         for tool in in_row {
-            let button = buttons.add(ui, tool.button);
+            let add = |ui: &mut Ui| buttons.add(ui, tool.button);
+            let button = ui.add_enabled_ui(tool.why_disabled.is_none(), add).inner;
             self.rects.record(tool.rect, &button);
             let is_on = match tool.command {
                 Command::FindPlaces => self.places.are_shown(),
@@ -220,28 +221,50 @@ impl Interface {
             let more = buttons
                 .add(ui, RowButton { icon: Icon::More, name_and_hover: hover, word: "More" });
             self.rects.record("more tools", &more);
-            let size = vec2(120.0, floating::button_side(ui));
-            egui::Popup::menu(&more)
-                .align(egui::RectAlign::TOP_END)
-                .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
-                .show(|ui| {
-                    for tool in in_menu {
-                        let (name, hover) = tool.button.name_and_hover;
-                        let button = ui.add_sized(size, Button::new(tool.button.word));
-                        let button = button.accessible_name(name).help(hover);
-                        self.rects.record(tool.rect, &button);
-                        if self.use_tool(tool, &button, commands) {
-                            ui.close();
-                        }
-                    }
-                });
+            self.menu_of_tools(ui, &more, in_menu, commands);
         }
         buttons
+    }
+
+    /// The tools that the button `more` shows. When the menu is closed with the keyboard, the button has it again.
+    fn menu_of_tools(
+        &mut self,
+        ui: &Ui,
+        more: &Response,
+        tools: &[Tool],
+        commands: &mut Vec<Command>,
+    ) {
+        let size = vec2(120.0, floating::button_side(ui));
+        let menu = egui::Popup::menu(more);
+        let (id, was_open) = (menu.get_id(), menu.is_open());
+        menu.align(egui::RectAlign::TOP_END)
+            .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
+            .show(|ui| {
+                for tool in tools {
+                    let (name, hover) = tool.button.name_and_hover;
+                    let button = Button::new(tool.button.word).min_size(size);
+                    let button = ui.add_enabled(tool.why_disabled.is_none(), button);
+                    let button = button.accessible_name(name).help(hover);
+                    self.rects.record(tool.rect, &button);
+                    if self.use_tool(tool, &button, commands) {
+                        ui.close();
+                    }
+                }
+            });
+        let is_closed = was_open && !egui::Popup::is_id_open(ui.ctx(), id);
+        let is_by_pointer = ui.input(|i| i.pointer.any_pressed() || i.pointer.any_released());
+        if is_closed && !is_by_pointer {
+            more.request_focus();
+        }
     }
 
     /// Runs the command of a clicked tool, and returns whether it ran. A pointer shows the view before the last change
     /// while it is down; Enter or a screen reader's click runs the command, which lasts two seconds.
     fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
+        if let Some(why) = tool.why_disabled {
+            button.clone().disabled_help(why);
+            return false;
+        }
         let is_by_pointer = button.ctx.input(|input| input.pointer.any_released());
         self.is_comparing |= tool.is_held && button.is_pointer_button_down_on();
         let is_run = button.clicked() && !(tool.is_held && is_by_pointer);
@@ -258,6 +281,8 @@ impl Interface {
             rect,
             command,
             is_held: command == Command::ShowBefore,
+            why_disabled: (command == Command::ShowBefore && !self.editor.can_undo())
+                .then_some("Nothing has changed yet"),
         };
         let mut tools = Vec::new();
         let hover = ("Surprise me", "Show a random scene (R)");
@@ -291,7 +316,10 @@ impl Interface {
         };
         let compare = Command::Compare;
         tools.push(tool(Icon::Halves, hover, "Compare", "compare toggle", compare));
-        let hover = ("Before", "Hold to see the view before the last change (C)");
+        let hover = (
+            "Before",
+            "Hold to see the view before the last change (C). Enter shows it for two seconds",
+        );
         tools.push(tool(Icon::Before, hover, "Before", "before", Command::ShowBefore));
         tools
     }
@@ -306,4 +334,6 @@ struct Tool {
     command: Command,
     /// True if a pointer uses the tool by holding it down, not by a click.
     is_held: bool,
+    /// Why the tool can't be used; none if it can.
+    why_disabled: Option<&'static str>,
 }

@@ -128,10 +128,10 @@ pub(super) fn sun_ball(
     rig: &mut Rig,
     camera: &Camera,
 ) -> Response {
-    let mut toward = rig.frame.to_view(rig.sky.sun_direction, camera);
+    let mut toward = rig.toward_sun_in_view(camera);
     let response = ball(ui, name, diameter, rig.sky.sun_color, &mut toward);
     if response.changed() {
-        rig.sky.sun_direction = rig.frame.from_view(toward, camera);
+        rig.set_toward_sun_in_view(toward, camera);
     }
     response
 }
@@ -251,6 +251,6 @@ fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     if rig.frame != before {
         // The sun keeps its current direction in the new frame.
         let sun = before.to_view(rig.sky.sun_direction, camera);
-        rig.sky.sun_direction = rig.frame.from_view(sun, camera);
+        rig.set_toward_sun_in_view(sun, camera);
     }
 }

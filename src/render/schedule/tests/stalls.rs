@@ -2,6 +2,9 @@
 
 use super::*;
 
+/// A frame of the interface without input.
+const ALONE: InterfaceFrame = InterfaceFrame { is_only_work: true, has_input: false };
+
 /// Seconds until a picture is complete, and the lattice level of the fifth picture of a movement
 /// after it, on a device that holds up one piece.
 fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
@@ -81,7 +84,7 @@ fn displays(interface_ms: f64) -> (usize, f64) {
     run(&mut schedule, &mut device, &mut now, 400_000, |s, now, new| {
         displays += new;
         if s.request_frame(now) {
-            s.frame_submitted(true, now);
+            s.frame_submitted(ALONE, now);
             s.collect(&[(None, interface_ms)]);
         }
         s.status(now).idle
@@ -126,7 +129,7 @@ fn frame_time_is_separated_from_pieces_where(hidden: f64, is_after: bool) {
             None => now += 1e-3,
         }
         if may_draw {
-            schedule.frame_submitted(true, now);
+            schedule.frame_submitted(ALONE, now);
             now += FRAME_MS * 1e-3;
             (drawn_at, frames, is_due) = (now, frames + 1, false);
             schedule.collect(&[(None, FRAME_MS - hidden_ms)]);
@@ -174,10 +177,10 @@ fn show_opening(schedule: &mut Schedule) {
 #[test]
 fn work_goes_on_after_a_measured_frame() {
     let mut schedule = waiting_for_a_frame();
-    schedule.frame_submitted(true, 1.0);
+    schedule.frame_submitted(ALONE, 1.0);
     assert!(!schedule.request_frame(1.0), "one at a time");
     // The pointer's frame is not measured, though no piece is in flight yet.
-    schedule.frame_submitted(true, 1.0);
+    schedule.frame_submitted(ALONE, 1.0);
     assert_eq!(schedule.next(1.0), None);
     schedule.collect(&[(None, 50.0)]);
     assert!((schedule.frame_interval_secs() - 0.5).abs() < 1e-9);
@@ -197,14 +200,14 @@ fn work_does_not_wait_for_a_frame_that_does_not_come() {
     hidden.collect(&[(work, 5.0)]);
     for _ in 0..16 {
         assert!(hidden.request_frame(4.5));
-        hidden.frame_submitted(true, 4.5);
+        hidden.frame_submitted(ALONE, 4.5);
         hidden.collect(&[(None, 5.0)]);
     }
     assert!(hidden.request_frame(4.5));
     assert_eq!(hidden.next(4.5), None, "after frames that came, one is measured");
     // Nor in another picture.
     let mut changed = waiting_for_a_frame();
-    changed.frame_submitted(true, 1.0);
+    changed.frame_submitted(ALONE, 1.0);
     changed.change(Stale::Geometry, true, 1.0);
     let work = changed.next(1.0);
     assert!(work.is_some());
@@ -221,12 +224,38 @@ fn a_stalled_interface_does_not_delay_displays() {
     show_opening(&mut schedule);
     let mut measure = |ms| {
         assert!(schedule.request_frame(1.0));
-        schedule.frame_submitted(true, 1.0);
+        schedule.frame_submitted(ALONE, 1.0);
         schedule.collect(&[(None, ms)]);
         schedule.frame_interval_secs()
     };
     assert!(measure(60_000.0) <= 2.0);
     assert!(measure(2.0) < 0.1, "the stall is forgotten");
+}
+
+/// Pieces in flight at `now_secs`, which end at once.
+fn in_flight(schedule: &mut Schedule, now_secs: f64) -> usize {
+    let works: Vec<Work> = std::iter::from_fn(|| schedule.next(now_secs)).collect();
+    let finished: Vec<_> = works.iter().map(|&work| (Some(work), 5.0)).collect();
+    schedule.collect(&finished);
+    works.len()
+}
+
+#[test]
+fn frames_that_answer_input_wait_for_one_piece() {
+    let with_input = InterfaceFrame { is_only_work: true, has_input: true };
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 16);
+    show_opening(&mut schedule);
+    schedule.frame_submitted(ALONE, 1.0);
+    assert_eq!(in_flight(&mut schedule, 1.0), 2);
+    schedule.frame_submitted(with_input, 2.0);
+    assert_eq!(in_flight(&mut schedule, 2.0), 1);
+    assert_eq!(in_flight(&mut schedule, 2.2), 1, "the answer can take some frames");
+    assert_eq!(in_flight(&mut schedule, 2.5), 2);
+    // What the input changed is not waited for longer than before.
+    schedule.frame_submitted(with_input, 3.0);
+    schedule.change(Stale::Geometry, false, 3.0);
+    assert_eq!(in_flight(&mut schedule, 3.0), 2, "the picture and its display");
 }
 
 /// Some browsers report two pieces when the second one ends. Pieces of any size seem to take the same
