@@ -14,9 +14,6 @@ use super::{
     work::{Trace, Work},
 };
 
-/// Pieces of work on the GPU at any time.
-pub const MAX_IN_FLIGHT: usize = 2;
-
 /// Largest delay of a merged completion behind the one before.
 ///
 /// Relative to its expected time. Merged completions share their time.

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use super::{completion::MAX_IN_FLIGHT, types::Phase};
+use super::types::{MAX_IN_FLIGHT, Phase};
 
 /// Largest part of GPU time that frames of the interface take which only report progress.
 pub const FRAME_SHARE: f64 = 0.1;

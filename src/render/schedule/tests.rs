@@ -1,6 +1,6 @@
 //! The schedule against simulated devices, from fast to 200 times slower, with spikes.
 
-use super::{completion::MAX_IN_FLIGHT, *};
+use super::{types::MAX_IN_FLIGHT, *};
 use crate::render::integrator::{DIRECT, PATH};
 
 mod arithmetic;

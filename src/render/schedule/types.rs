@@ -1,5 +1,8 @@
 //! What a schedule is told, and what it reports: plain types that its other files share.
 
+/// Pieces of work on the GPU at any time.
+pub const MAX_IN_FLIGHT: usize = 2;
+
 /// How a view spends GPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
