@@ -82,5 +82,5 @@ pub mod work_queues;
 pub use pipelines::Pipelines;
 pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};
 pub use report::{Activity, Report};
-pub use schedule::{InterfaceFrame, Pace};
+pub use schedule::Pace;
 pub use view::View;

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
-//! | `interface_frames` | when a frame of the interface is measured |
+//! | `interface_frames` | room for frames of the interface |
 //! | `progress` | how much of the picture has been computed |
 //! | `cost`, `rate` | estimates of what work takes |
 //! | `plan` | what an integrator says of its work |
@@ -35,7 +35,6 @@ use adaptation::{ADAPT_INTERVAL_SECS, ADAPT_SHARE, Adaptation};
 use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
-pub use interface_frames::InterfaceFrame;
 use interface_frames::{FRAME_SHARE, InterfaceFrames};
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
@@ -120,9 +119,7 @@ impl Schedule {
         }
     }
 
-    /// Sets the GPU time of a moving picture and the samples of each pixel.
-    ///
-    /// The time is in milliseconds; there is at least one sample.
+    /// Sets the GPU time of a moving picture, milliseconds, and the samples of each pixel, at least one.
     pub fn aim(&mut self, budget_ms: f64, samples: u32) {
         self.budget_ms = budget_ms;
         self.samples_wanted = samples.max(1);
@@ -158,7 +155,7 @@ impl Schedule {
         self.adaptation.set_slow(adapts && self.pace == Pace::Interactive);
     }
 
-    /// Sets the plan of the integrator that computes samples. Call [`Self::change`] after it.
+    /// Sets the plan of the integrator of samples. Call [`Self::change`] after it.
     pub fn set_plan(&mut self, plan: &'static Plan) {
         self.progress.plan = plan;
         self.cost.set_plan(plan);
@@ -174,9 +171,8 @@ impl Schedule {
         self.cost.arithmetic = arithmetic;
     }
 
-    /// Sets the lights that shine, and the lights whose shadow bits are stale.
-    ///
-    /// Both by their visibility bits. Call [`Self::change`] after it where either is not zero or was not.
+    /// Sets the lights that shine, and those whose shadow bits are stale, by their visibility bits. Call
+    /// [`Self::change`] after it where either is not zero or was not.
     pub fn set_lights(&mut self, shining: u64, moved: u64) {
         self.progress.shining = shining;
         self.progress.gbuffer_validity.invalidate_lights(moved);
@@ -218,9 +214,8 @@ impl Schedule {
         reuse
     }
 
-    /// Copies the progress of another schedule of the same picture. Returns which samples the caller must copy.
-    ///
-    /// `whole`: all pixels of the region.
+    /// Copies the progress of another schedule of the same picture, whose `whole` region is all its pixels. Returns which
+    /// samples the caller must copy.
     pub fn copy_progress(&mut self, other: &Self, whole: Overlap) -> Reuse {
         self.progress.clone_from(&other.progress);
         self.is_converged = other.is_converged;
@@ -232,10 +227,8 @@ impl Schedule {
         self.progress.kept_samples()
     }
 
-    /// False while the opening picture of the last change is under way.
-    ///
-    /// The next change waits until that picture is shown, so that a slow device shows some
-    /// pictures of a movement rather than none.
+    /// False while the opening picture of the last change is under way. The next change waits until it is
+    /// shown, so that a slow device shows some pictures of a movement rather than none.
     pub fn accepts_changes(&self) -> bool {
         self.pace == Pace::Still || !self.opening || self.is_between()
     }
@@ -296,8 +289,9 @@ impl Schedule {
     /// None where enough is in flight, where the last picture of a movement has been shown, while a frame of the
     /// interface is measured, or where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        let phase = self.phase();
-        if self.in_flight.len() >= self.interface_frames.max_in_flight(phase, now_secs) {
+        let (phase, in_flight_ms) = (self.phase(), self.in_flight.expected_ms(Phase::Refining));
+        let frames = &self.interface_frames;
+        if self.in_flight.len() >= frames.max_in_flight(phase, in_flight_ms, now_secs) {
             return None;
         }
         let work = self.choose(now_secs)?;
@@ -324,9 +318,16 @@ impl Schedule {
         self.interface_frames.request(is_refining, self.in_flight.is_empty(), now_secs)
     }
 
-    /// Notes that a frame of the interface has been submitted.
-    pub fn frame_submitted(&mut self, frame: InterfaceFrame, now_secs: f64) {
-        self.interface_frames.submitted(frame, !self.in_flight.is_empty(), now_secs);
+    /// Notes input at the interface that someone waits for the answer of, such as a click.
+    pub fn note_input(&mut self, now_secs: f64) {
+        self.interface_frames.note_input(now_secs);
+    }
+
+    /// Notes that a frame of the interface has been submitted. `is_only_work`: nothing but this picture and the interface
+    /// use the GPU.
+    pub fn frame_submitted(&mut self, is_only_work: bool, now_secs: f64) {
+        let is_free = is_only_work && self.in_flight.is_empty();
+        self.interface_frames.submitted(is_free, now_secs);
     }
 
     /// What the next piece of work is for.
@@ -385,8 +386,8 @@ impl Schedule {
 
     /// Whether a change of the film is displayed now.
     ///
-    /// Openings, complete lattices, edits and finished pictures are displayed at once, refining ones
-    /// at intervals, because a display takes GPU time. A still is displayed once.
+    /// Openings, complete lattices, edits and finished pictures are displayed at once, refining ones at intervals,
+    /// because a display takes GPU time. A still is displayed once.
     fn is_display_due(&self, now_secs: f64) -> bool {
         let finished = self.progress.samples_done >= self.samples_to_do();
         if self.pace == Pace::Still {

@@ -18,7 +18,7 @@ use super::{
     reconstruction::Reconstruction,
     recorder::{Dispatches, Recorder},
     region::Region,
-    schedule::{InterfaceFrame, Pace, Schedule, Stage, Stale, Work},
+    schedule::{Pace, Schedule, Stage, Stale, Work},
     sky::{SampledSky, SkyCache},
     space::RenderSpace,
     sub_frame::SubFrame,
@@ -169,11 +169,18 @@ impl View {
         }
     }
 
+    /// Notes input at the interface that someone waits for the answer of, such as a click: for some frames, at most one
+    /// long piece of this view's work delays it. Call it before the frame's [`Self::pump`].
+    pub fn note_input(&mut self, now_secs: f64) {
+        self.schedule.note_input(now_secs);
+    }
+
     /// Notes that the interface has just submitted its drawing of a frame.
     ///
-    /// This time is no part of a picture's cost; it decides how often an unfinished picture is shown.
-    pub fn time_frame(&mut self, frame: InterfaceFrame, now_secs: f64) {
-        self.schedule.frame_submitted(frame, now_secs);
+    /// This time is no part of a picture's cost; it decides how often an unfinished picture is shown. `is_only_work`:
+    /// nothing but this view's work and the interface use the GPU.
+    pub fn time_frame(&mut self, is_only_work: bool, now_secs: f64) {
+        self.schedule.frame_submitted(is_only_work, now_secs);
         self.stopwatch.note(&self.pipelines.gpu, None);
     }
 

@@ -216,7 +216,9 @@ impl ButtonRow {
         }
         let side = button_side(ui);
         let area = Rect::from_min_size(self.next, vec2(WORD_STEP - 2.0, side + WORD_HEIGHT));
-        ui.painter().rect_filled(area, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
+        // Not faded where the button is disabled: its word stays legible over any picture.
+        let painter = ui.ctx().layer_painter(ui.layer_id()).with_clip_rect(ui.clip_rect());
+        painter.rect_filled(area, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
         let at = Rect::from_min_size(area.min, vec2(area.width(), side));
         let (name, hover) = name_and_hover;
         let added = ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover));
@@ -225,7 +227,7 @@ impl ButtonRow {
         let sense = Sense::CLICK | Sense::DRAG;
         let added = added.union(ui.interact(word_rect, added.id.with("word"), sense));
         let (font, below) = (FontId::proportional(12.0), area.center_bottom() - vec2(0.0, 4.0));
-        ui.painter().text(below, Align2::CENTER_BOTTOM, word, font, theme::TEXT);
+        painter.text(below, Align2::CENTER_BOTTOM, word, font, theme::TEXT);
         self.next.x += WORD_STEP;
         added
     }

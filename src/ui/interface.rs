@@ -96,6 +96,7 @@ pub struct Interface {
     is_comparing: bool,
     /// Time until which the view before the last change is shown by [`Command::ShowBefore`], on egui's clock.
     before_until_secs: f64,
+    tool_menu_focus: picture::MenuFocus,
     histogram_shown: bool,
     loaded: Loaded,
     /// Ends the slices of searches.
@@ -136,6 +137,7 @@ impl Interface {
             moving: false,
             is_comparing: false,
             before_until_secs: 0.0,
+            tool_menu_focus: picture::MenuFocus::default(),
             histogram_shown: false,
             loaded: Loaded::default(),
             clock: Clock::default(),

@@ -290,6 +290,17 @@ pub fn step_a_value(input: &egui::InputState) -> bool {
     keys.into_iter().any(|key| input.key_pressed(key))
 }
 
+/// Whether someone waits for the answer to this frame's input: clicks, keys, the wheel, a screen reader's actions.
+/// A pointer that only moves is none.
+pub fn is_answered(input: &egui::InputState) -> bool {
+    input.events.iter().any(|event| match event {
+        Event::PointerButton { .. } | Event::MouseWheel { .. } | Event::Text(_) => true,
+        Event::Key { repeat, .. } => !repeat,
+        Event::AccessKitActionRequest(_) => true,
+        _ => false,
+    })
+}
+
 /// The commands of this frame's key presses.
 ///
 /// No commands while text is typed. A focused widget keeps the keys that it uses (arrows, Space,

@@ -23,7 +23,7 @@ use super::{
 };
 use crate::{
     gpu::Gpu,
-    render::{Activity, InterfaceFrame, Pipelines, Report},
+    render::{Activity, Pipelines, Report},
     ui::{self, SmallTextures, StillFile, StillFormat, loss_policy::SafeMode},
 };
 
@@ -180,6 +180,9 @@ impl Engine {
         let scene = interface.shown_scene();
         let settling_secs = self.view.resize(scene, interface.view_size_px(), scale, now_secs);
         self.view.note_frame();
+        if self.context.input(ui::shortcuts::is_answered) {
+            self.view.note_input(now_secs);
+        }
         self.view.set_environment_map(interface.environment_map());
         self.view.set_scene(interface.shown_scene(), interface.is_moving());
         self.view.watch_histogram(interface.wants_histogram());
@@ -307,8 +310,7 @@ fn tick() {
     // Timed before this tick submits work, which would be counted as the frame's.
     if std::mem::take(&mut engine.has_drawn) {
         let is_only_work = engine.is_view_drawn;
-        let has_input = engine.context.input(|input| !input.events.is_empty());
-        engine.view.time_frame(InterfaceFrame { is_only_work, has_input }, page::now_secs());
+        engine.view.time_frame(is_only_work, page::now_secs());
     }
     let busy = engine.step(&mut session, page::now_secs());
     engine.request_repaint(busy, &session.status.report);

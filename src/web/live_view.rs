@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     fractal::SharedModel,
-    render::{Activity, InterfaceFrame, Pace, Pipelines, Region, Report, View},
+    render::{Activity, Pace, Pipelines, Region, Report, View},
     scene::{EnvironmentMap, Scene},
     ui,
 };
@@ -214,10 +214,18 @@ impl LiveView {
         }
     }
 
-    /// Notes that the interface has just submitted its drawing of a frame.
-    pub fn time_frame(&mut self, frame: InterfaceFrame, now_secs: f64) {
+    /// Notes input at the interface that someone waits for the answer of, such as a click.
+    pub fn note_input(&mut self, now_secs: f64) {
         if let Some(view) = &mut self.view {
-            view.time_frame(frame, now_secs);
+            view.note_input(now_secs);
+        }
+    }
+
+    /// Notes that the interface has just submitted its drawing of a frame. `is_only_work`: nothing but the view's work and
+    /// the interface use the GPU.
+    pub fn time_frame(&mut self, is_only_work: bool, now_secs: f64) {
+        if let Some(view) = &mut self.view {
+            view.time_frame(is_only_work, now_secs);
         }
     }
 

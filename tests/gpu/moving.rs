@@ -1,7 +1,7 @@
 //! Moving pictures: what a sparse lattice is spread to, and what becomes of it.
 
 use mandelight::{
-    render::{InterfaceFrame, Pace, Region, View},
+    render::{Pace, Region, View},
     scene::Scene,
 };
 use mandelight_test_support::{
@@ -115,7 +115,7 @@ fn frames_of_the_interface_change_nothing() {
     while view.pump(now_secs) {
         now_secs = start.elapsed().as_secs_f64();
         if view.request_frame(now_secs) {
-            view.time_frame(InterfaceFrame { is_only_work: true, has_input: false }, now_secs);
+            view.time_frame(true, now_secs);
             drawn += 1;
         } else {
             waited += 1;

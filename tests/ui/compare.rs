@@ -78,6 +78,13 @@ fn buttons_compare_two_states_and_show_the_one_before() {
         }
         let nothing_changed = harness.get_by_label("Before");
         assert!(nothing_changed.accesskit_node().is_disabled(), "{size:?}");
+        let at = nothing_changed.rect().center();
+        drag(&mut harness, at, at - egui::vec2(0.0, 60.0), 3);
+        assert_eq!(
+            *scene(&harness),
+            first,
+            "a drag from the disabled tool turns no picture, in {size:?}"
+        );
         press_tool(&mut harness, "Compare");
         harness.get_by_label("B is in view: the copy of A. Edits change B.");
         press(&mut harness, "State A");

@@ -142,7 +142,7 @@ fn messages_leave_a_comparison_free() {
             let over = messages[..index].iter().find(|(_, other)| other.intersects(*message));
             assert_eq!(over, None, "{size:?}: {name} {message:?}");
         }
-        // In a wide window the panel tells of the saving.
+        // In a wide window, the panel shows the export's progress.
         assert_eq!(messages.len(), if size[0] < 1000.0 { 3 } else { 2 }, "{size:?}: {messages:?}");
     }
 }

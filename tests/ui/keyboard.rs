@@ -207,11 +207,12 @@ fn the_arrow_keys_turn_the_view_that_has_the_keyboard() {
     assert!(!is_at_view(&harness));
 }
 
-/// The menu of the tools that do not fit their row gives the keyboard back to its button, after a choice and without one.
+/// The closed menu of tools returns the focus to its button, after a choice and after Escape; not to someone with a mouse.
 #[test]
-fn a_closed_menu_gives_the_keyboard_back() {
+fn a_closed_menu_returns_the_focus() {
     let size = [640.0, 420.0];
     let mut harness = without_motion(stage(Scene::default(), Settings::default(), size));
+    let name_in_focus = |harness: &Harness<'_, Stage>| focused(harness).map(|(name, _)| name);
     for keys in [&[Key::Escape][..], &[Key::Tab, Key::Enter]] {
         harness.get_by_label("More tools").focus();
         harness.run();
@@ -221,12 +222,19 @@ fn a_closed_menu_gives_the_keyboard_back() {
         for &key in keys {
             harness.key_press(key);
             harness.run();
+            let is_inside = name_in_focus(&harness).is_some_and(|name| name != "More tools");
+            assert_eq!(is_inside, key == Key::Tab, "{key:?}");
         }
-        let focused = focused(&harness);
         assert!(harness.query_by_label("Compare").is_none(), "{keys:?}: the menu is open");
-        assert!(
-            focused.as_ref().is_some_and(|(name, _)| name == "More tools"),
-            "{keys:?}: {focused:?}"
-        );
+        assert_eq!(name_in_focus(&harness).as_deref(), Some("More tools"), "{keys:?}");
     }
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), size));
+    let more = harness.get_by_label("More tools").rect().center();
+    drag(&mut harness, more, more, 1);
+    harness.run();
+    harness.get_by_label("Compare");
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("Compare").is_none());
+    assert_eq!(name_in_focus(&harness), None);
 }

@@ -1,7 +1,7 @@
-//! What pieces of work leave to frames of the interface.
+//! How pieces of work make room for frames of the interface.
 //!
-//! Now and then a frame has the GPU to itself and is measured. Beside pieces of work it cannot be: browsers count most of its
-//! time as the piece before or after it. After input, a frame waits for one piece instead of two.
+//! Now and then a frame has the GPU to itself and is measured. A frame beside pieces of work can't be: browsers count most of
+//! its time as the piece before or after it. After input, a frame waits for one long piece instead of two.
 
 use std::collections::VecDeque;
 
@@ -19,17 +19,12 @@ const FIRST_MEASURED: u32 = 2;
 /// Longest time that work waits for a frame, seconds: a page out of sight draws none.
 const MAX_HOLD_SECS: f64 = 3.0;
 
-/// Time after input within which frames answer it, seconds: a click can take some frames.
+/// Seconds after input during which one long piece is in flight: a click can take some frames.
 const ANSWER_SECS: f64 = 0.3;
 
-/// A frame of the interface that has been submitted.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct InterfaceFrame {
-    /// Whether nothing but the picture's work and the interface use the GPU.
-    pub is_only_work: bool,
-    /// Whether it had input: someone waits for the answer, in this frame or the next ones.
-    pub has_input: bool,
-}
+/// Time of pieces in flight from which on they delay a frame noticeably, milliseconds. Shorter ones stay two, since one piece
+/// at a time leaves the GPU idle until its completion is known.
+const LONG_MS: f64 = 12.0;
 
 /// The interface's frames in flight, and whether work waits for one.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +37,7 @@ pub struct InterfaceFrames {
     measured: u32,
     /// Frames since the last measured one.
     since_measured: u32,
-    /// When the last frame with input was submitted; none before the first.
+    /// When the last input was; none before the first.
     input_at_secs: Option<f64>,
 }
 
@@ -52,14 +47,19 @@ impl InterfaceFrames {
         self.held_since_secs.is_some_and(|since| now_secs - since < MAX_HOLD_SECS)
     }
 
-    /// Most pieces of work in flight at `now_secs`: each one delays a frame that answers input.
+    /// Notes input that someone waits for the answer of, such as a click.
+    pub fn note_input(&mut self, now_secs: f64) {
+        self.input_at_secs = Some(now_secs);
+    }
+
+    /// Most pieces in flight at `now_secs`, where those in flight take `in_flight_ms`.
     ///
-    /// Pictures that someone waits for come before the interface.
-    pub fn max_in_flight(&self, phase: Phase, now_secs: f64) -> usize {
+    /// The first picture of a change always has two, with its display.
+    pub fn max_in_flight(&self, phase: Phase, in_flight_ms: f64, now_secs: f64) -> usize {
         let is_answering = self.input_at_secs.is_some_and(|at| now_secs - at < ANSWER_SECS);
         if self.is_holding(now_secs) {
             0
-        } else if is_answering && phase == Phase::Refining {
+        } else if is_answering && phase == Phase::Refining && in_flight_ms > LONG_MS {
             1
         } else {
             MAX_IN_FLIGHT
@@ -90,14 +90,10 @@ impl InterfaceFrames {
         !self.is_holding(now_secs) || (is_free && self.in_flight.is_empty())
     }
 
-    /// Notes that a frame has been submitted. `is_busy`: work of this picture is in flight.
-    pub fn submitted(&mut self, frame: InterfaceFrame, is_busy: bool, now_secs: f64) {
-        let is_free = frame.is_only_work && !is_busy;
+    /// Notes that a frame has been submitted. `is_free`: no work is in flight, of this picture or another.
+    pub fn submitted(&mut self, is_free: bool, now_secs: f64) {
         let is_alone = is_free && self.is_holding(now_secs) && self.in_flight.is_empty();
         self.in_flight.push_back(is_alone);
-        if frame.has_input {
-            self.input_at_secs = Some(now_secs);
-        }
     }
 
     /// Whether the next frame is to be measured.

@@ -1,6 +1,6 @@
 //! What a schedule is told, and what it reports: plain types that its other files share.
 
-/// Pieces of work on the GPU at any time.
+/// Most pieces of work in flight.
 pub const MAX_IN_FLIGHT: usize = 2;
 
 /// How a view spends GPU time.

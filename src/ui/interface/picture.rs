@@ -1,6 +1,6 @@
 //! The picture's part of a frame: its camera's input, and what lies over it.
 
-use egui::{Align2, Button, Rect, Response, Ui, vec2};
+use egui::{Align2, Button, Key, Rect, Response, Sense, Ui, vec2};
 
 use super::Interface;
 use crate::scene::Project;
@@ -204,7 +204,12 @@ impl Interface {
         let (in_row, in_menu) = tools.split_at(in_row);
         for tool in in_row {
             let add = |ui: &mut Ui| buttons.add(ui, tool.button);
-            let button = ui.add_enabled_ui(tool.why_disabled.is_none(), add).inner;
+            let button = ui.add_enabled_ui(tool.is_enabled, add).inner;
+            if !tool.is_enabled {
+                // egui gives a press on a disabled button to what lies below it: here the picture, which would turn.
+                let id = button.id.with("disabled");
+                let _ = ui.interact(button.rect, id, Sense::CLICK | Sense::DRAG);
+            }
             self.rects.record(tool.rect, &button);
             let is_on = match tool.command {
                 Command::FindPlaces => self.places.are_shown(),
@@ -226,7 +231,7 @@ impl Interface {
         buttons
     }
 
-    /// The tools that the button `more` shows. When the menu is closed with the keyboard, the button has it again.
+    /// Shows `tools` in a menu above `more`. A menu that had the keyboard focus returns it to `more` when it closes.
     fn menu_of_tools(
         &mut self,
         ui: &Ui,
@@ -237,14 +242,16 @@ impl Interface {
         let size = vec2(120.0, floating::button_side(ui));
         let menu = egui::Popup::menu(more);
         let (id, was_open) = (menu.get_id(), menu.is_open());
+        let mut has_focus = more.has_focus();
         menu.align(egui::RectAlign::TOP_END)
             .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
             .show(|ui| {
                 for tool in tools {
                     let (name, hover) = tool.button.name_and_hover;
                     let button = Button::new(tool.button.word).min_size(size);
-                    let button = ui.add_enabled(tool.why_disabled.is_none(), button);
-                    let button = button.accessible_name(name).help(hover);
+                    let button = ui.add_enabled(tool.is_enabled, button).accessible_name(name);
+                    let button = button.help(hover).disabled_help(hover);
+                    has_focus |= button.has_focus();
                     self.rects.record(tool.rect, &button);
                     if self.use_tool(tool, &button, commands) {
                         ui.close();
@@ -252,19 +259,26 @@ impl Interface {
                 }
             });
         let is_closed = was_open && !egui::Popup::is_id_open(ui.ctx(), id);
+        // The Escape key has taken the focus before this frame.
         let is_by_pointer = ui.input(|i| i.pointer.any_pressed() || i.pointer.any_released());
-        if is_closed && !is_by_pointer {
+        let was_inside = has_focus || self.tool_menu_focus == MenuFocus::Inside;
+        if is_closed && was_inside && !is_by_pointer {
+            self.tool_menu_focus = MenuFocus::Due;
+        } else if self.tool_menu_focus != MenuFocus::Due {
+            self.tool_menu_focus = if has_focus { MenuFocus::Inside } else { MenuFocus::Elsewhere };
+        } else if !ui.input(|i| i.key_down(Key::Enter) || i.key_down(Key::Space)) {
+            // A key that is still down would open the menu again.
             more.request_focus();
+            self.tool_menu_focus = MenuFocus::Elsewhere;
+        }
+        if self.tool_menu_focus == MenuFocus::Due {
+            ui.ctx().request_repaint();
         }
     }
 
     /// Runs the command of a clicked tool, and returns whether it ran. A pointer shows the view before the last change
     /// while it is down; Enter or a screen reader's click runs the command, which lasts two seconds.
     fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
-        if let Some(why) = tool.why_disabled {
-            button.clone().disabled_help(why);
-            return false;
-        }
         let is_by_pointer = button.ctx.input(|input| input.pointer.any_released());
         self.is_comparing |= tool.is_held && button.is_pointer_button_down_on();
         let is_run = button.clicked() && !(tool.is_held && is_by_pointer);
@@ -281,8 +295,7 @@ impl Interface {
             rect,
             command,
             is_held: command == Command::ShowBefore,
-            why_disabled: (command == Command::ShowBefore && !self.editor.can_undo())
-                .then_some("Nothing has changed yet"),
+            is_enabled: command != Command::ShowBefore || self.editor.can_undo(),
         };
         let mut tools = Vec::new();
         let hover = ("Surprise me", "Show a random scene (R)");
@@ -316,13 +329,27 @@ impl Interface {
         };
         let compare = Command::Compare;
         tools.push(tool(Icon::Halves, hover, "Compare", "compare toggle", compare));
-        let hover = (
-            "Before",
-            "Hold to see the view before the last change (C). Enter shows it for two seconds",
-        );
+        let hover = if self.editor.can_undo() {
+            "Hold to see the view before the last change (hold C); Enter shows that view for two seconds"
+        } else {
+            "There is no earlier view"
+        };
+        let hover = ("Before", hover);
         tools.push(tool(Icon::Before, hover, "Before", "before", Command::ShowBefore));
         tools
     }
+}
+
+/// Where the keyboard focus is, as the menu of tools sees it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum MenuFocus {
+    /// Neither in the menu nor at its button.
+    #[default]
+    Elsewhere,
+    /// In the menu or at its button.
+    Inside,
+    /// Lost with the closed menu: its button gets it.
+    Due,
 }
 
 /// A tool over the picture.
@@ -334,6 +361,5 @@ struct Tool {
     command: Command,
     /// True if a pointer uses the tool by holding it down, not by a click.
     is_held: bool,
-    /// Why the tool can't be used; none if it can.
-    why_disabled: Option<&'static str>,
+    is_enabled: bool,
 }

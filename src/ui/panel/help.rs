@@ -38,7 +38,8 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool, rects:
                 caption(ui, "With a mouse");
                 table(ui, "gestures", width, GESTURES.iter().copied());
                 caption(ui, "Keys");
-                let of_page = [("F6", "Go to the buttons that offer a new version, and back")];
+                let of_page =
+                    [("F6", "Go to the offer of a new version, if there is one, and back")];
                 let keys = SHORTCUTS.iter().filter_map(|shortcut| shortcut.help).chain(of_page);
                 table(ui, "keys", width, keys);
                 caption(ui, "In fly mode (keys by position, as on a US keyboard)");

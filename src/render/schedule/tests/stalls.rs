@@ -2,9 +2,6 @@
 
 use super::*;
 
-/// A frame of the interface without input.
-const ALONE: InterfaceFrame = InterfaceFrame { is_only_work: true, has_input: false };
-
 /// Seconds until a picture is complete, and the lattice level of the fifth picture of a movement
 /// after it, on a device that holds up one piece.
 fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
@@ -84,7 +81,7 @@ fn displays(interface_ms: f64) -> (usize, f64) {
     run(&mut schedule, &mut device, &mut now, 400_000, |s, now, new| {
         displays += new;
         if s.request_frame(now) {
-            s.frame_submitted(ALONE, now);
+            s.frame_submitted(true, now);
             s.collect(&[(None, interface_ms)]);
         }
         s.status(now).idle
@@ -129,7 +126,7 @@ fn frame_time_is_separated_from_pieces_where(hidden: f64, is_after: bool) {
             None => now += 1e-3,
         }
         if may_draw {
-            schedule.frame_submitted(ALONE, now);
+            schedule.frame_submitted(true, now);
             now += FRAME_MS * 1e-3;
             (drawn_at, frames, is_due) = (now, frames + 1, false);
             schedule.collect(&[(None, FRAME_MS - hidden_ms)]);
@@ -177,10 +174,10 @@ fn show_opening(schedule: &mut Schedule) {
 #[test]
 fn work_goes_on_after_a_measured_frame() {
     let mut schedule = waiting_for_a_frame();
-    schedule.frame_submitted(ALONE, 1.0);
+    schedule.frame_submitted(true, 1.0);
     assert!(!schedule.request_frame(1.0), "one at a time");
     // The pointer's frame is not measured, though no piece is in flight yet.
-    schedule.frame_submitted(ALONE, 1.0);
+    schedule.frame_submitted(true, 1.0);
     assert_eq!(schedule.next(1.0), None);
     schedule.collect(&[(None, 50.0)]);
     assert!((schedule.frame_interval_secs() - 0.5).abs() < 1e-9);
@@ -200,14 +197,14 @@ fn work_does_not_wait_for_a_frame_that_does_not_come() {
     hidden.collect(&[(work, 5.0)]);
     for _ in 0..16 {
         assert!(hidden.request_frame(4.5));
-        hidden.frame_submitted(ALONE, 4.5);
+        hidden.frame_submitted(true, 4.5);
         hidden.collect(&[(None, 5.0)]);
     }
     assert!(hidden.request_frame(4.5));
     assert_eq!(hidden.next(4.5), None, "after frames that came, one is measured");
     // Nor in another picture.
     let mut changed = waiting_for_a_frame();
-    changed.frame_submitted(ALONE, 1.0);
+    changed.frame_submitted(true, 1.0);
     changed.change(Stale::Geometry, true, 1.0);
     let work = changed.next(1.0);
     assert!(work.is_some());
@@ -224,7 +221,7 @@ fn a_stalled_interface_does_not_delay_displays() {
     show_opening(&mut schedule);
     let mut measure = |ms| {
         assert!(schedule.request_frame(1.0));
-        schedule.frame_submitted(ALONE, 1.0);
+        schedule.frame_submitted(true, 1.0);
         schedule.collect(&[(None, ms)]);
         schedule.frame_interval_secs()
     };
@@ -232,30 +229,41 @@ fn a_stalled_interface_does_not_delay_displays() {
     assert!(measure(2.0) < 0.1, "the stall is forgotten");
 }
 
-/// Pieces in flight at `now_secs`, which end at once.
-fn in_flight(schedule: &mut Schedule, now_secs: f64) -> usize {
+/// The pieces in flight at `now_secs`, which end at once; each takes `ms`.
+fn in_flight(schedule: &mut Schedule, ms: f64, now_secs: f64) -> Vec<Work> {
     let works: Vec<Work> = std::iter::from_fn(|| schedule.next(now_secs)).collect();
-    let finished: Vec<_> = works.iter().map(|&work| (Some(work), 5.0)).collect();
+    let finished: Vec<_> = works.iter().map(|&work| (Some(work), ms)).collect();
     schedule.collect(&finished);
-    works.len()
+    works
 }
 
 #[test]
-fn frames_that_answer_input_wait_for_one_piece() {
-    let with_input = InterfaceFrame { is_only_work: true, has_input: true };
-    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
-    schedule.aim(16.0, 16);
-    show_opening(&mut schedule);
-    schedule.frame_submitted(ALONE, 1.0);
-    assert_eq!(in_flight(&mut schedule, 1.0), 2);
-    schedule.frame_submitted(with_input, 2.0);
-    assert_eq!(in_flight(&mut schedule, 2.0), 1);
-    assert_eq!(in_flight(&mut schedule, 2.2), 1, "the answer can take some frames");
-    assert_eq!(in_flight(&mut schedule, 2.5), 2);
-    // What the input changed is not waited for longer than before.
-    schedule.frame_submitted(with_input, 3.0);
-    schedule.change(Stale::Geometry, false, 3.0);
-    assert_eq!(in_flight(&mut schedule, 3.0), 2, "the picture and its display");
+fn after_input_one_long_piece_is_in_flight() {
+    for (ms, is_long) in [(40.0, true), (0.5, false)] {
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+        schedule.aim(16.0, 1000);
+        show_opening(&mut schedule);
+        let count = |schedule: &mut Schedule, now_secs: f64| {
+            let pieces = in_flight(schedule, ms, now_secs);
+            // A short display may be in flight beside a long trace.
+            let is_counted = |work: &&Work| !is_long || matches!(work, Work::Trace(_));
+            pieces.iter().filter(is_counted).count()
+        };
+        for step in 0..6 {
+            count(&mut schedule, f64::from(step));
+        }
+        schedule.note_input(6.0);
+        let after_input = if is_long { 1 } else { 2 };
+        assert_eq!(count(&mut schedule, 6.0), after_input, "{ms} ms a piece");
+        assert_eq!(count(&mut schedule, 6.2), after_input, "a click can take some frames");
+        assert_eq!(count(&mut schedule, 6.4), 2, "{ms} ms a piece");
+        for moving in [false, true] {
+            schedule.note_input(7.0);
+            schedule.change(Stale::Geometry, moving, 7.0);
+            let opening = in_flight(&mut schedule, ms, 7.0);
+            assert_eq!(opening.len(), 2, "the picture and its display");
+        }
+    }
 }
 
 /// Some browsers report two pieces when the second one ends. Pieces of any size seem to take the same
