@@ -294,9 +294,11 @@ pub fn step_a_value(input: &egui::InputState) -> bool {
 /// A pointer that only moves is none.
 pub fn is_answered(input: &egui::InputState) -> bool {
     input.events.iter().any(|event| match event {
-        Event::PointerButton { .. } | Event::MouseWheel { .. } | Event::Text(_) => true,
+        Event::PointerButton { .. }
+        | Event::MouseWheel { .. }
+        | Event::Text(_)
+        | Event::AccessKitActionRequest(_) => true,
         Event::Key { repeat, .. } => !repeat,
-        Event::AccessKitActionRequest(_) => true,
         _ => false,
     })
 }
