@@ -155,7 +155,7 @@ impl Schedule {
         self.adaptation.set_slow(adapts && self.pace == Pace::Interactive);
     }
 
-    /// Sets the plan of the integrator of samples. Call [`Self::change`] after it.
+    /// Sets the plan of the integrator that computes samples. Call [`Self::change`] after it.
     pub fn set_plan(&mut self, plan: &'static Plan) {
         self.progress.plan = plan;
         self.cost.set_plan(plan);
@@ -214,7 +214,7 @@ impl Schedule {
         reuse
     }
 
-    /// Copies the progress of another schedule of the same picture, whose `whole` region is all its pixels. Returns which
+    /// Copies the progress of another schedule of the same picture; `whole` is all pixels of the region. Returns which
     /// samples the caller must copy.
     pub fn copy_progress(&mut self, other: &Self, whole: Overlap) -> Reuse {
         self.progress.clone_from(&other.progress);

@@ -96,6 +96,7 @@ pub struct Interface {
     is_comparing: bool,
     /// Time until which the view before the last change is shown by [`Command::ShowBefore`], on egui's clock.
     before_until_secs: f64,
+    /// Where the keyboard focus was in the last frame, as the menu of tools sees it.
     tool_menu_focus: picture::MenuFocus,
     histogram_shown: bool,
     loaded: Loaded,

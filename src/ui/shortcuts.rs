@@ -292,7 +292,7 @@ pub fn step_a_value(input: &egui::InputState) -> bool {
 
 /// Whether someone waits for the answer to this frame's input: clicks, keys, the wheel, a screen reader's actions.
 /// A pointer that only moves is none.
-pub fn is_answered(input: &egui::InputState) -> bool {
+pub fn wants_answer(input: &egui::InputState) -> bool {
     input.events.iter().any(|event| match event {
         Event::PointerButton { .. }
         | Event::MouseWheel { .. }

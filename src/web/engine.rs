@@ -180,7 +180,7 @@ impl Engine {
         let scene = interface.shown_scene();
         let settling_secs = self.view.resize(scene, interface.view_size_px(), scale, now_secs);
         self.view.note_frame();
-        if self.context.input(ui::shortcuts::is_answered) {
+        if self.context.input(ui::shortcuts::wants_answer) {
             self.view.note_input(now_secs);
         }
         self.view.set_environment_map(interface.environment_map());

@@ -143,6 +143,7 @@ fn messages_leave_a_comparison_free() {
             assert_eq!(over, None, "{size:?}: {name} {message:?}");
         }
         // In a wide window, the panel shows the export's progress.
+        assert_eq!(rects.get("saving").is_some(), size[0] < 1000.0, "{size:?}");
         assert_eq!(messages.len(), if size[0] < 1000.0 { 3 } else { 2 }, "{size:?}: {messages:?}");
     }
 }

@@ -22,8 +22,8 @@ const MAX_HOLD_SECS: f64 = 3.0;
 /// Seconds after input during which one long piece is in flight: a click can take some frames.
 const ANSWER_SECS: f64 = 0.3;
 
-/// Time of pieces in flight from which on they delay a frame noticeably, milliseconds. Shorter ones stay two, since one piece
-/// at a time leaves the GPU idle until its completion is known.
+/// Time of the pieces in flight above which they delay a frame noticeably, milliseconds. Below it two are in flight, since
+/// one at a time leaves the GPU idle until its completion is known.
 const LONG_MS: f64 = 12.0;
 
 /// The interface's frames in flight, and whether work waits for one.

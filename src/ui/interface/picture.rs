@@ -259,8 +259,8 @@ impl Interface {
                 }
             });
         let is_closed = was_open && !egui::Popup::is_id_open(ui.ctx(), id);
-        // The Escape key has taken the focus before this frame.
         let is_by_pointer = ui.input(|i| i.pointer.any_pressed() || i.pointer.any_released());
+        // Escape takes the focus before the frame that closes the menu.
         let was_inside = has_focus || self.tool_menu_focus == MenuFocus::Inside;
         if is_closed && was_inside && !is_by_pointer {
             self.tool_menu_focus = MenuFocus::Due;
