@@ -17,7 +17,7 @@ fn relative_error(pixel: vec2u) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     let low = max(pixel, vec2u(1u)) - 1u;

@@ -11,7 +11,7 @@ fn above_threshold(color: vec3f) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let levels = film_levels();
     let size = mip_size(levels, FIRST_MIP_LEVEL);
     let index = mip_index(workgroup.x, local_index);

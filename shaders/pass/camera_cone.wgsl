@@ -48,7 +48,7 @@ fn has_work(block: Block) -> bool {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
     if (!has_work(block)) { return; }

@@ -4,7 +4,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     if (thread.x / BLOCK_THREADS >= dispatch.blocks) { return; }
     let site = block_site(block_at(thread.x / BLOCK_THREADS), thread.x % BLOCK_THREADS);
     if (!site.is_there) { return; }

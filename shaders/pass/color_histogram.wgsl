@@ -13,7 +13,7 @@ fn count_value(layer: ColorLayer, first_bin: u32, stored: f32, normal: u32) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);

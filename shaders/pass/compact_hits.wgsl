@@ -3,7 +3,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
     var any = 0u;

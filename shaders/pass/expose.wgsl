@@ -7,7 +7,7 @@ const MAX_STOPS = 20.0;
 
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     if (local_index != 0u) { return; }
     if (dispatch.mip_level != 0u) {
         // The last level has one element per eye.

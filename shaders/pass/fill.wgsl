@@ -39,7 +39,7 @@ fn pair(at: vec2i, offset: vec2i, sure: vec3f) -> array<vec3f, 2> {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel) || is_kept(pixel)) { return; }
     let at = vec2i(pixel);

@@ -72,7 +72,7 @@ fn film(first: Site) -> vec2f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     counted[local_index] = film(pixel_site(thread.x));
     workgroupBarrier();
     if (local_index == 0u && frame.paths.firefly_limit > 0.0) { count_light(); }

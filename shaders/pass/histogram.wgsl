@@ -11,7 +11,7 @@ fn bin(color: vec3f) -> u32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     // Workgroup memory starts as zeros.
     let levels = film_levels();
     let size = mip_size(levels, FIRST_MIP_LEVEL);

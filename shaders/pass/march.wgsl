@@ -151,7 +151,7 @@ fn layer_value(layer: ColorLayer, colors: OrbitColors, trap: f32, hit: vec3f) ->
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }

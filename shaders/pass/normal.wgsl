@@ -75,7 +75,7 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let site = queued_hit(thread.x);
     if (!site.is_there) { return; }
     if (surface[site.index].x == 0u) { return; }

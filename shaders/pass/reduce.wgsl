@@ -4,7 +4,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let level = dispatch.mip_level;
     let levels = film_levels();
     let finer_size = mip_size(levels, level);

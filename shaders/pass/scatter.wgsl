@@ -235,7 +235,7 @@ fn scatter_path(site: Site, path: ptr<function, PathState>, vertex: Vertex) -> b
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let site = path_site(thread.x);
     if (!site.is_there) { return; }
     let seen = surface[site.index];

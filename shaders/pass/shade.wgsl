@@ -13,7 +13,7 @@ fn shaded(site: Site) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);

@@ -67,7 +67,7 @@ fn path_receiver(site: Site) -> Receiver {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }

@@ -55,7 +55,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     if (thread.x >= atomicLoad(&work_queues.hits)) { return; }
     let block = block_at(work_queues.entries[thread.x]);
     var any_faces = false;

@@ -107,7 +107,7 @@ fn show(pixel: vec2u, encoded: vec3f) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     var encoded = shown(pixel);

@@ -5,7 +5,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    frame = frame_uniforms;
+    read_frame();
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let color = tone_mapped(film_mean(pixel_index(pixel)) * frame.tone.exposure);

@@ -59,7 +59,7 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }

@@ -333,7 +333,7 @@ struct FrameUniforms {
 
 @group(0) @binding(0) var<storage, read> frame_uniforms: FrameUniforms;
 
-// Every entry point begins with `frame = frame_uniforms`. Before any branch, lavapipe reads a value once
-// for all threads; after a branch it reads the value once per thread, and again for each use in a
-// loop.
-var<private> frame: FrameUniforms;
+// `frame` and `read_frame` are generated for each module (`render::shaders`): a copy of those members that the module's
+// files name. Every entry point begins with `read_frame()`. Before any branch, lavapipe reads a value once for all
+// threads; after a branch it reads the value once per thread, and again for each use in a loop. A copy of all members
+// takes SwiftShader longer than the tone curve.

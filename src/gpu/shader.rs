@@ -50,6 +50,8 @@ pub struct Module {
     pub label: &'static str,
     /// The module's files; a file may use declarations of later files.
     pub files: Vec<File>,
+    /// Text after the files that follows from what they use; may be empty.
+    pub generated: String,
 }
 
 impl Module {
@@ -67,12 +69,14 @@ impl Module {
     ) -> Self {
         let mut files = Vec::new();
         join(root, find, &mut Vec::new(), &mut files);
-        Self { label, files }
+        Self { label, files, generated: String::new() }
     }
 
     /// The joined text, each file headed by its path.
     pub fn text(&self) -> String {
-        self.files.iter().map(|file| format!("// {}.wgsl\n{}\n", file.path, file.text)).collect()
+        let files = self.files.iter();
+        let texts = files.map(|file| format!("// {}.wgsl\n{}\n", file.path, file.text));
+        texts.chain([self.generated.clone()]).collect()
     }
 
     /// Creates the module on a device.

@@ -35,10 +35,66 @@ pub fn module(name: &'static str, kernel: Option<Kernel>) -> Module {
 /// If the header names a missing file, or a formula without a kernel.
 pub fn joined(label: &'static str, kernel: Option<Kernel>, text: &'static str) -> Module {
     let files = kernel.map(|kernel| kernel.files());
-    Module::new(label, File { path: label, text }, &|used| match (used, &files) {
+    let root = File { path: label, text };
+    let mut module = Module::new(label, root, &|used| match (used, &files) {
         ("formula", _) => Some(files.as_ref()?.files.clone()),
         ("formula_types", Some(files)) => Some(vec![files.types]),
         ("formula_types", None) => Some(vec![file("types/no_formula")?]),
         _ => Some(vec![file(used)?]),
+    });
+    module.generated = frame_of(&module);
+    module
+}
+
+/// What `types/frame_uniforms` leaves to be generated: `frame` and `read_frame`, with the members of `FrameUniforms` that
+/// the module names. Empty for a module without that file.
+fn frame_of(module: &Module) -> String {
+    let Some(uniforms) = module.files.iter().find(|file| file.path == "types/frame_uniforms")
+    else {
+        return String::new();
+    };
+    let used: Vec<_> = module.files.iter().flat_map(|file| members_of_frame(file.text)).collect();
+    let declarations = uniforms.text.lines().skip_while(|line| *line != "struct FrameUniforms {");
+    let members: Vec<_> = declarations
+        .take_while(|line| *line != "}")
+        .filter_map(|line| line.trim().strip_suffix(',')?.split_once(": "))
+        .filter(|(name, _)| used.contains(name))
+        .collect();
+    let text = |line: fn(&str, &str) -> String| {
+        members.iter().map(|(name, kind)| line(name, kind)).collect::<String>()
+    };
+    format!(
+        "struct Frame {{\n{}}}\nvar<private> frame: Frame;\nfn read_frame() {{\n{}}}\n",
+        text(|name, kind| format!("    {name}: {kind},\n")),
+        text(|name, _| format!("    frame.{name} = frame_uniforms.{name};\n")),
+    )
+}
+
+/// The members of `frame` that `text` names, each time that it does.
+fn members_of_frame(text: &str) -> impl Iterator<Item = &str> {
+    let is_part_of_name = |c: char| c == '_' || c.is_alphanumeric();
+    text.match_indices("frame.").filter_map(move |(at, found)| {
+        let (before, after) = (&text[..at], &text[at + found.len()..]);
+        let is_whole = !before.ends_with(|c| is_part_of_name(c));
+        let end = after.find(|c| !is_part_of_name(c)).unwrap_or(after.len());
+        is_whole.then_some(&after[..end])
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_module_copies_the_members_of_the_frame_that_its_files_name() {
+        let text = "// uses: types/frame_uniforms
+            fn f() -> f32 { return frame.tone.exposure + subframe.fog + frame.normals; }";
+        let generated = joined("probe", None, text).generated;
+        let copies =
+            ["frame.tone = frame_uniforms.tone;", "frame.normals = frame_uniforms.normals;"];
+        let copied: Vec<_> =
+            generated.lines().map(str::trim).filter(|line| line.starts_with("frame.")).collect();
+        assert_eq!(copied, copies);
+        assert!(joined("probe", None, "fn f() {}").generated.is_empty());
+    }
 }

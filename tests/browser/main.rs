@@ -280,7 +280,7 @@ const CALLS_ALL: &str = "// uses: formula, types/frame_uniforms
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     let fractal = frame.formula.fractal;
     let point = vec3f(thread) * 0.01;
     let colors = orbit_colors(fractal, point);
@@ -301,8 +301,7 @@ fn the_browser_compiles_what_the_checker_accepts() {
             .formula
             .kernel;
         let module = shaders::joined("formula", Some(kernel), CALLS_ALL);
-        let text: Vec<_> = module.files.iter().map(|file| file.text).collect();
-        fs::write(folder.join(format!("{name}.wgsl")), text.join("\n")).unwrap();
+        fs::write(folder.join(format!("{name}.wgsl")), module.text()).unwrap();
     };
     for formula in formula::all() {
         write(formula.id(), Fractal::new(formula));

@@ -19,7 +19,7 @@ struct Answer {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    frame = frame_uniforms;
+    read_frame();
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
     let fractal = frame.formula.fractal;
