@@ -54,6 +54,9 @@ const STILL_SECS: f64 = 0.25;
 /// Seconds for which [`Command::ShowBefore`] shows the view before the last change.
 const BEFORE_SECS: f64 = 2.0;
 
+/// Why [`Command::ShowBefore`] shows nothing.
+const NO_EARLIER_VIEW: &str = "There is no earlier view";
+
 /// Seconds for which a notice of the interface itself stays.
 const NOTICE_SECS: f64 = 6.0;
 
@@ -308,9 +311,7 @@ impl Interface {
             self.show_target(ui, target, wide, &mut commands);
         }
         if widgets::focus_named(ui.ctx()).is_some() {
-            let text = "This scene has no such control.".to_owned();
-            let notice = Notice { text, ..Notice::default() };
-            self.toast.show(notice, now_secs + NOTICE_SECS);
+            self.say("This scene has no such control.", now_secs);
         }
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
@@ -323,8 +324,12 @@ impl Interface {
         }
         for command in commands {
             self.dispatch(ui, command, wide, &mut actions);
-            if command == Command::ShowBefore {
-                self.before_until_secs = now_secs + BEFORE_SECS;
+            match command {
+                Command::ShowBefore if self.editor.can_undo() => {
+                    self.before_until_secs = now_secs + BEFORE_SECS;
+                }
+                Command::ShowBefore => self.say(NO_EARLIER_VIEW, now_secs),
+                _ => {}
             }
         }
         self.show_state(other_state);
@@ -413,6 +418,12 @@ impl Interface {
             widgets::note_part(ui, PanelPart::Timeline.title(), row);
         }
         panel::formula_window(ui, &mut cx);
+    }
+
+    /// Shows a message of the interface's own for some seconds.
+    fn say(&mut self, text: &str, now_secs: f64) {
+        let notice = Notice { text: text.to_owned(), ..Notice::default() };
+        self.toast.show(notice, now_secs + NOTICE_SECS);
     }
 
     /// Shows the shell's message, else the interface's own.

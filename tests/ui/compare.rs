@@ -9,6 +9,9 @@ use mandelight::{scene::presets, ui::Settings};
 
 use crate::stage::*;
 
+/// What says that nothing has changed yet.
+const NO_EARLIER_VIEW: &str = "There is no earlier view";
+
 fn set_power(harness: &mut Harness<'_, Stage>, power: f64) {
     slider(harness, "Power").set_value_accesskit(power);
     harness.run();
@@ -85,6 +88,9 @@ fn buttons_compare_two_states_and_show_the_one_before() {
             first,
             "a drag from the disabled tool turns no picture, in {size:?}"
         );
+        assert!(harness.query_by_label_contains(NO_EARLIER_VIEW).is_none());
+        drag(&mut harness, at, at, 1);
+        harness.get_by_label_contains(NO_EARLIER_VIEW);
         press_tool(&mut harness, "Compare");
         harness.get_by_label("B is in view: the copy of A. Edits change B.");
         press(&mut harness, "State A");

@@ -200,6 +200,9 @@ fn a_choice_is_shown_with_the_keyboard() {
 fn the_view_before_the_last_change_is_shown_for_two_seconds() {
     let mut harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
     let before = scene(&harness).clone();
+    find(&mut harness, "before: show");
+    harness.run_steps(3);
+    harness.get_by_label_contains("There is no earlier view");
     slider(&harness, "Power").set_value_accesskit(5.0);
     harness.run();
     let after = scene(&harness).clone();

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Button, Key, Rect, Response, Sense, Ui, vec2};
 
-use super::Interface;
+use super::{Interface, NO_EARLIER_VIEW};
 use crate::scene::Project;
 use crate::ui::{
     display_inputs::DisplayInputs,
@@ -205,11 +205,8 @@ impl Interface {
         for tool in in_row {
             let add = |ui: &mut Ui| buttons.add(ui, tool.button);
             let button = ui.add_enabled_ui(tool.is_enabled, add).inner;
-            if !tool.is_enabled {
-                // egui gives a press on a disabled button to what lies below it: here the picture, which would turn.
-                let id = button.id.with("disabled");
-                let _ = ui.interact(button.rect, id, Sense::CLICK | Sense::DRAG);
-            }
+            let is_asked_why = !tool.is_enabled && takes_press(ui, &button);
+            commands.extend(is_asked_why.then_some(tool.command));
             self.rects.record(tool.rect, &button);
             let is_on = match tool.command {
                 Command::FindPlaces => self.places.are_shown(),
@@ -253,7 +250,9 @@ impl Interface {
                     let button = button.help(hover).disabled_help(hover);
                     has_focus |= button.has_focus();
                     self.rects.record(tool.rect, &button);
-                    if self.use_tool(tool, &button, commands) {
+                    let is_asked_why = !tool.is_enabled && takes_press(ui, &button);
+                    commands.extend(is_asked_why.then_some(tool.command));
+                    if is_asked_why || self.use_tool(tool, &button, commands) {
                         ui.close();
                     }
                 }
@@ -294,8 +293,8 @@ impl Interface {
             button: RowButton { icon, name_and_hover, word },
             rect,
             command,
-            is_held: command == Command::ShowBefore,
-            is_enabled: command != Command::ShowBefore || self.editor.can_undo(),
+            is_held: false,
+            is_enabled: true,
         };
         let mut tools = Vec::new();
         let hover = ("Surprise me", "Show a random scene (R)");
@@ -329,15 +328,25 @@ impl Interface {
         };
         let compare = Command::Compare;
         tools.push(tool(Icon::Halves, hover, "Compare", "compare toggle", compare));
-        let hover = if self.editor.can_undo() {
+        let is_enabled = self.editor.can_undo();
+        let hover = if is_enabled {
             "Hold to see the view before the last change (hold C); Enter shows that view for two seconds"
         } else {
-            "There is no earlier view"
+            NO_EARLIER_VIEW
         };
         let hover = ("Before", hover);
-        tools.push(tool(Icon::Before, hover, "Before", "before", Command::ShowBefore));
+        let before = tool(Icon::Before, hover, "Before", "before", Command::ShowBefore);
+        tools.push(Tool { is_held: true, is_enabled, ..before });
         tools
     }
+}
+
+/// Takes the presses on a disabled button, and returns whether it was clicked.
+///
+/// egui gives them to what lies below the button: here the picture, which would turn.
+fn takes_press(ui: &Ui, button: &Response) -> bool {
+    let id = button.id.with("disabled");
+    ui.interact(button.rect, id, Sense::CLICK | Sense::DRAG).clicked()
 }
 
 /// Where the keyboard focus is, as the menu of tools sees it.
