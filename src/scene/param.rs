@@ -159,7 +159,7 @@ params! {
         "Only pixels brighter than this glow. At 0 all pixels glow, as in the thesis.";
     BLOOM_PASSES = "bloom.passes", "Passes", Count, 1.0, 4.0, default 3.0, Integer by 1.0,
         "Shape of the glow: 1 is square, as in the thesis; 3 and more are round.";
-    MOTION_BUDGET = "quality.motion_budget_ms", "Moving frame time", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
+    MOTION_BUDGET = "quality.motion_budget_ms", "Frame time", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
         "GPU time per frame during motion. Higher is sharper and choppier.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
         "Number of samples per pixel at rest. More gives smoother edges and less grain, and takes longer.";

@@ -1,5 +1,7 @@
 //! What the page says is in words that someone knows who has never rendered anything.
 
+use std::collections::BTreeSet;
+
 use egui::{Key, Modifiers, Shape};
 use egui_kittest::{Harness, kittest::NodeT as _};
 use mandelight::{
@@ -182,4 +184,33 @@ fn the_measure_knows_banned_words() {
     let texts = ["0.0 EV", "Size 1 u", "Rig", "S", "Reinhard on", "Under you", "Right"];
     let texts = texts.map(str::to_owned);
     assert_eq!(banned(&texts, &EXPERT_PHRASES), texts[..5]);
+}
+
+/// Names that the program itself gives are shown whole: in each section, and on the cards of narrow and low windows.
+#[test]
+fn no_name_is_cut_off() {
+    let sizes = [[1280.0, 6000.0], [390.0, 844.0], [360.0, 640.0], [844.0, 390.0], [640.0, 420.0]];
+    let mut count = 0;
+    let mut cut = BTreeSet::new();
+    for size in sizes {
+        for has_touch in [false, true] {
+            for settings in [Settings::default(), unfolded()] {
+                let mut harness = stage(presets::opening(), settings, size);
+                if has_touch {
+                    touch(&mut harness);
+                }
+                harness.run();
+                let texts = shapes(&harness).into_iter().filter_map(|shape| match shape {
+                    Shape::Text(text) => Some(&text.galley),
+                    _ => None,
+                });
+                let texts: Vec<_> = texts.collect();
+                count += texts.len();
+                let elided = texts.iter().filter(|text| text.elided);
+                cut.extend(elided.map(|text| format!("{size:?}: {}", text.text())));
+            }
+        }
+    }
+    assert!(cut.is_empty(), "{cut:?}");
+    assert!(count > 1000, "{count}");
 }
