@@ -138,18 +138,23 @@ fn lights(scene: &Scene) -> Vec<Light> {
         LightFrame::View.from_world(frame.to_world(direction, camera), camera)
     };
     let rgb = |color: [f32; 3]| DVec3::from_array(color.map(f64::from));
-    let environment = lights.environment.iter().filter(|light| !light.muted).map(|light| {
-        let toward = in_view(light.frame, DVec3::from_array(light.direction));
-        (toward, rgb(light.color) * light.intensity)
-    });
-    let point = lights.point.iter().filter(|light| !light.muted).map(|light| {
+    let any_solo = lights.any_solo();
+    let environment =
+        lights.environment.iter().filter(|light| light.shines(any_solo)).map(|light| {
+            let toward = in_view(light.frame, DVec3::from_array(light.direction));
+            (toward, rgb(light.color) * light.intensity)
+        });
+    let point = lights.point.iter().filter(|light| light.shines(any_solo)).map(|light| {
         let offset = &light.position - &camera.pivot;
         let strength = light.intensity / offset.length_squared().max(1e-300);
         let toward = in_view(LightFrame::Scene, offset.normalize_or(DVec3::Z));
         (toward, rgb(light.color) * strength)
     });
-    let rig = lights.rig.lights().into_iter();
-    let rig = rig.map(|(direction, strength)| (in_view(lights.rig.frame, direction), strength));
+    let rig = lights.rig.shines(any_solo).then(|| lights.rig.lights());
+    let rig = rig
+        .into_iter()
+        .flatten()
+        .map(|(direction, strength)| (in_view(lights.rig.frame, direction), strength));
     environment.chain(point).chain(rig).collect()
 }
 
@@ -245,4 +250,28 @@ pub fn paint_background(painter: &Painter, rect: Rect, [top, bottom]: [Color32; 
         mesh.add_triangle(k + 1, k + 3, k + 2);
     }
     painter.add(Shape::mesh(mesh));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{EnvironmentLight, PointLight, RigKind};
+
+    #[test]
+    fn the_lights_of_the_sphere_are_those_that_shine() {
+        let mut scene = Scene::default();
+        scene.lights.environment = vec![EnvironmentLight::default(); 2];
+        scene.lights.point = vec![PointLight::default()];
+        scene.lights.rig.kind = RigKind::Sky;
+        let of_sky = scene.lights.rig.lights().len();
+        assert!(of_sky > 0);
+        assert_eq!(lights(&scene).len(), 3 + of_sky);
+        scene.lights.rig.muted = true;
+        assert_eq!(lights(&scene).len(), 3);
+        scene.lights.rig.muted = false;
+        scene.lights.environment[1].solo = true;
+        assert_eq!(lights(&scene).len(), 1);
+        scene.lights.environment[1].muted = true;
+        assert!(lights(&scene).is_empty());
+    }
 }
