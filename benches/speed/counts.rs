@@ -74,8 +74,7 @@ pub fn counting(
     module: &Module,
     marks: &Marks<'_>,
 ) -> Result<wgpu::ShaderModule, String> {
-    let files = module.files.iter().map(|file| (file.path, file.text));
-    let files: Vec<_> = files.chain([("generated", &*module.generated)]).collect();
+    let files: Vec<_> = module.parts().collect();
     let text = instrument::counting(&files, marks)?;
     Ok(gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(module.label),

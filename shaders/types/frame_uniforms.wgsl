@@ -333,7 +333,5 @@ struct FrameUniforms {
 
 @group(0) @binding(0) var<storage, read> frame_uniforms: FrameUniforms;
 
-// `frame` and `read_frame` are generated for each module (`render::shaders`): a copy of those members that the module's
-// files name. Every entry point begins with `read_frame()`. Before any branch, lavapipe reads a value once for all
-// threads; after a branch it reads the value once per thread, and again for each use in a loop. A copy of all members
-// takes SwiftShader longer than the tone curve.
+// `frame`, a copy of the members that a module's files name, and `read_frame` are generated (`render::shaders`). Every
+// entry point begins with `read_frame()`, before any branch (docs/notes/marching.md, "Uniforms in each thread").

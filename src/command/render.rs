@@ -169,10 +169,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
             device.pipelines.gpu.name()
         ));
         if let Some(fraction) = clamped {
-            message(&format!(
-                "the firefly limit took away {} of the light",
-                clamped_text(fraction)
-            ));
+            message(&format!("the firefly limit removed {} of the light", clamped_text(fraction)));
         }
     }
     Ok(())

@@ -28,7 +28,7 @@ const MAX_DEEP_TILE_PX: u32 = 2048;
 /// Maximum encoder bytes of a picture that reuses a view's samples. Such a picture is one tile.
 const MAX_REUSED_BYTES: u64 = 128 << 20;
 
-/// Maximum pixels of a picture that reuses a view's samples: those of a screen of 3840×2160. A second view of that size is
+/// Maximum pixels of a picture that reuses a view's samples; a picture of 3840×2160 fits. A second view of that size is
 /// allocated.
 const MAX_REUSED_PX: u64 = 1 << 23;
 

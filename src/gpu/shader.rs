@@ -50,7 +50,7 @@ pub struct Module {
     pub label: &'static str,
     /// The module's files; a file may use declarations of later files.
     pub files: Vec<File>,
-    /// Text after the files that follows from what they use; may be empty.
+    /// Generated WGSL, appended after the files; may be empty.
     pub generated: String,
 }
 
@@ -72,11 +72,15 @@ impl Module {
         Self { label, files, generated: String::new() }
     }
 
-    /// The joined text, each file headed by its path.
+    /// The path and the text of each file, then of the generated text, called `generated`.
+    pub fn parts(&self) -> impl Iterator<Item = (&str, &str)> {
+        let files = self.files.iter().map(|file| (file.path, file.text));
+        files.chain([("generated", &*self.generated)]).filter(|(_, text)| !text.is_empty())
+    }
+
+    /// The joined text, each part headed by its path.
     pub fn text(&self) -> String {
-        let files = self.files.iter();
-        let texts = files.map(|file| format!("// {}.wgsl\n{}\n", file.path, file.text));
-        texts.chain([self.generated.clone()]).collect()
+        self.parts().map(|(path, text)| format!("// {path}.wgsl\n{text}\n")).collect()
     }
 
     /// Creates the module on a device.

@@ -42,13 +42,14 @@ pub fn joined(label: &'static str, kernel: Option<Kernel>, text: &'static str) -
         ("formula_types", None) => Some(vec![file("types/no_formula")?]),
         _ => Some(vec![file(used)?]),
     });
-    module.generated = frame_of(&module);
+    module.generated = frame_declarations(&module);
     module
 }
 
-/// What `types/frame_uniforms` leaves to be generated: `frame` and `read_frame`, with the members of `FrameUniforms` that
-/// the module names. Empty for a module without that file.
-fn frame_of(module: &Module) -> String {
+/// WGSL text that declares `frame` and `read_frame` for a module.
+///
+/// `frame` has those members of `FrameUniforms` that the module's files name. Empty without `types/frame_uniforms`.
+fn frame_declarations(module: &Module) -> String {
     let Some(uniforms) = module.files.iter().find(|file| file.path == "types/frame_uniforms")
     else {
         return String::new();
@@ -61,23 +62,26 @@ fn frame_of(module: &Module) -> String {
         .filter(|(name, _)| used.contains(name))
         .collect();
     let text = |line: fn(&str, &str) -> String| {
-        members.iter().map(|(name, kind)| line(name, kind)).collect::<String>()
+        members.iter().map(|(name, ty)| line(name, ty)).collect::<String>()
     };
     format!(
         "struct Frame {{\n{}}}\nvar<private> frame: Frame;\nfn read_frame() {{\n{}}}\n",
-        text(|name, kind| format!("    {name}: {kind},\n")),
+        text(|name, ty| format!("    {name}: {ty},\n")),
         text(|name, _| format!("    frame.{name} = frame_uniforms.{name};\n")),
     )
 }
 
-/// The members of `frame` that `text` names, each time that it does.
+/// The members of `frame` that `text` names outside of comments, with repetitions.
 fn members_of_frame(text: &str) -> impl Iterator<Item = &str> {
     let is_part_of_name = |c: char| c == '_' || c.is_alphanumeric();
-    text.match_indices("frame.").filter_map(move |(at, found)| {
-        let (before, after) = (&text[..at], &text[at + found.len()..]);
-        let is_whole = !before.ends_with(|c| is_part_of_name(c));
-        let end = after.find(|c| !is_part_of_name(c)).unwrap_or(after.len());
-        is_whole.then_some(&after[..end])
+    let code = text.lines().filter_map(|line| line.split("//").next());
+    code.flat_map(move |line| {
+        line.match_indices("frame.").filter_map(move |(at, found)| {
+            let (before, after) = (&line[..at], &line[at + found.len()..]);
+            let is_whole = !before.ends_with(is_part_of_name);
+            let end = after.find(|c| !is_part_of_name(c)).unwrap_or(after.len());
+            is_whole.then_some(&after[..end])
+        })
     })
 }
 
@@ -88,7 +92,7 @@ mod tests {
     #[test]
     fn a_module_copies_the_members_of_the_frame_that_its_files_name() {
         let text = "// uses: types/frame_uniforms
-            fn f() -> f32 { return frame.tone.exposure + subframe.fog + frame.normals; }";
+            fn f() -> f32 { return frame.tone.exposure + subframe.fog + frame.normals; } // frame.march";
         let generated = joined("probe", None, text).generated;
         let copies =
             ["frame.tone = frame_uniforms.tone;", "frame.normals = frame_uniforms.normals;"];

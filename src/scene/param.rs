@@ -67,7 +67,7 @@ params! {
         "Number of lights that represent the sky or the environment map. More gives softer, more exact light and is slower.";
     RIG_INTENSITY = "lights.rig.intensity", "Sky brightness", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
         "Brightness of the light of the sky or the environment map, and of that map as the background.";
-    RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Sky shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+    RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Sky reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
         "Maximum distance at which a surface casts a shadow from the light of the sky or the environment map. Shorter brightens crevices and is faster.";
     SUN_STRENGTH = "lights.rig.sky.sun_strength", "Sun strength", None, 0.0, 100.0, default 2.0, Logarithmic by 0.05,
         "Brightness of the sun. At 1, a white surface that faces the sun is white.";
@@ -111,7 +111,7 @@ params! {
         "How often the gradient repeats per iteration on section planes. More gives narrower bands.";
     MEAN_FREE_PATH = "medium.mean_free_path", "Clarity", ViewUnits, 0.001, 10.0, default 0.05, Logarithmic by 0.05,
         "How far light gets inside before it scatters (mean free path): low looks solid as stone, high clear as glass.";
-    MEDIUM_ANISOTROPY = "medium.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.0, Linear by 0.01,
+    MEDIUM_ANISOTROPY = "medium.anisotropy", "Forward glow", None, -0.9, 0.9, default 0.0, Linear by 0.01,
         "Above 0 it is brightest when you look toward the light, below 0 with the light behind you; 0 is even.";
     THIN_ITERATIONS = "medium.thin_iterations", "Clear below", None, 0.0, 1000.0, default 2.0, Logarithmic by 0.05,
         "Iteration count below which the cloud is empty. Lower widens the cloud.";
@@ -119,7 +119,7 @@ params! {
         "Iteration count above which the cloud is densest. Lower makes a harder edge.";
     FOG_DENSITY = "fog.density", "Fog", PerViewUnit, 0.0, 100.0, default 0.0, Logarithmic by 0.01,
         "How thick the fog is. 0 is none; at 1 about a third of the light reaches the pivot.";
-    FOG_ANISOTROPY = "fog.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.3, Linear by 0.01,
+    FOG_ANISOTROPY = "fog.anisotropy", "Forward glow", None, -0.9, 0.9, default 0.3, Linear by 0.01,
         "Above 0 it is brightest when you look toward the light, below 0 with the light behind you; 0 is even.";
     FOG_HEIGHT = "fog.height", "Fog falloff", ViewUnits, 0.01, 100.0, default 0.5, Logarithmic by 0.05,
         "How fast the fog thins above its level: over this height to about a third.";
@@ -145,7 +145,7 @@ params! {
         "Number of samples per direction. More is smoother and slower.";
     BOUNCES = "integrator.bounces", "Bounces", Count, 0.0, 64.0, default 8.0, Integer by 1.0,
         "How many times light may change direction, at surfaces, in fog and in media. More brightens crevices and translucent sets and takes longer. 0: only direct light.";
-    BOUNCE_REACH = "integrator.reach", "Bounce distance", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+    BOUNCE_REACH = "integrator.reach", "Bounce reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
         "How far bounced light travels; 1 is the distance to the pivot. Shorter is faster; under a sky, shorter also brightens crevices.";
     NOISE = "integrator.noise", "Stop at noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
         "Stops each pixel at this noise: 0.02 looks clean, 0.1 is grainy but fast. 0 always takes all samples.";
@@ -159,8 +159,8 @@ params! {
         "Only pixels brighter than this glow. At 0 all pixels glow, as in the thesis.";
     BLOOM_PASSES = "bloom.passes", "Passes", Count, 1.0, 4.0, default 3.0, Integer by 1.0,
         "Shape of the glow: 1 is square, as in the thesis; 3 and more are round.";
-    MOTION_BUDGET = "quality.motion_budget_ms", "Frame time", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
-        "GPU time per frame during motion. Higher is sharper and choppier.";
+    MOTION_BUDGET = "quality.motion_budget_ms", "Time per frame", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
+        "Longest GPU time of a frame while the picture moves. Higher is sharper and choppier.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
         "Number of samples per pixel at rest. More gives smoother edges and less grain, and takes longer.";
     DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,

@@ -55,7 +55,7 @@ const STILL_SECS: f64 = 0.25;
 const BEFORE_SECS: f64 = 2.0;
 
 /// Why [`Command::ShowBefore`] shows nothing.
-const NO_EARLIER_VIEW: &str = "There is no earlier view";
+const NO_EARLIER_VIEW: &str = "There is no earlier view.";
 
 /// Seconds for which a notice of the interface itself stays.
 const NOTICE_SECS: f64 = 6.0;
@@ -281,7 +281,11 @@ impl Interface {
         // Before the first touch, egui does not know that the screen is one.
         self.has_touch = !wide || ui.input(|input| input.has_touch_screen());
         let before_left_secs = self.before_until_secs - now_secs;
-        self.is_comparing = shortcuts::is_comparing(ui.ctx()) || before_left_secs > 0.0;
+        let holds_before = shortcuts::is_comparing(ui.ctx());
+        if holds_before && !self.is_comparing && !self.editor.can_undo() {
+            self.show_notice(NO_EARLIER_VIEW, now_secs);
+        }
+        self.is_comparing = holds_before || before_left_secs > 0.0;
         if before_left_secs > 0.0 {
             // In every frame: egui keeps one time at most, that of the last frame.
             ui.ctx().request_repaint_after_secs(before_left_secs as f32);
@@ -311,7 +315,7 @@ impl Interface {
             self.show_target(ui, target, wide, &mut commands);
         }
         if widgets::focus_named(ui.ctx()).is_some() {
-            self.say("This scene has no such control.", now_secs);
+            self.show_notice("This scene has no such control.", now_secs);
         }
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
@@ -328,7 +332,7 @@ impl Interface {
                 Command::ShowBefore if self.editor.can_undo() => {
                     self.before_until_secs = now_secs + BEFORE_SECS;
                 }
-                Command::ShowBefore => self.say(NO_EARLIER_VIEW, now_secs),
+                Command::ShowBefore => self.show_notice(NO_EARLIER_VIEW, now_secs),
                 _ => {}
             }
         }
@@ -420,8 +424,8 @@ impl Interface {
         panel::formula_window(ui, &mut cx);
     }
 
-    /// Shows a message of the interface's own for some seconds.
-    fn say(&mut self, text: &str, now_secs: f64) {
+    /// Shows a notice for [`NOTICE_SECS`].
+    fn show_notice(&mut self, text: &str, now_secs: f64) {
         let notice = Notice { text: text.to_owned(), ..Notice::default() };
         self.toast.show(notice, now_secs + NOTICE_SECS);
     }

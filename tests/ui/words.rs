@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use egui::{Key, Modifiers, Shape};
 use egui_kittest::{Harness, kittest::NodeT as _};
 use mandelight::{
+    formula::section::SectionPlane,
     render::report::Activity,
-    scene::presets,
-    ui::{Settings, shortcuts},
+    scene::{EnvironmentLight, PointLight, RigKind, Scene, presets},
+    ui::{Settings, SheetHeight, shortcuts},
 };
 
 use crate::stage::*;
@@ -189,13 +190,15 @@ fn the_measure_knows_banned_words() {
 /// Names that the program itself gives are shown whole: in each section, and on the cards of narrow and low windows.
 #[test]
 fn no_name_is_cut_off() {
-    let sizes = [[1280.0, 6000.0], [390.0, 844.0], [360.0, 640.0], [844.0, 390.0], [640.0, 420.0]];
-    let mut count = 0;
+    let sizes = [[1280.0, 6000.0], [360.0, 7000.0], [390.0, 844.0], [844.0, 390.0], [640.0, 420.0]];
+    let heights = [SheetHeight::Low, SheetHeight::Tall];
+    let cases = sizes.into_iter().flat_map(|size| heights.map(|sheet| (size, sheet)));
     let mut cut = BTreeSet::new();
-    for size in sizes {
-        for has_touch in [false, true] {
-            for settings in [Settings::default(), unfolded()] {
-                let mut harness = stage(presets::opening(), settings, size);
+    for (size, sheet) in cases {
+        for scene in [presets::opening(), with_all_parts()] {
+            for has_touch in [false, true] {
+                let settings = Settings { sheet, ..unfolded() };
+                let mut harness = stage(scene.clone(), settings, size);
                 if has_touch {
                     touch(&mut harness);
                 }
@@ -205,12 +208,28 @@ fn no_name_is_cut_off() {
                     _ => None,
                 });
                 let texts: Vec<_> = texts.collect();
-                count += texts.len();
+                let is_unfolded =
+                    size[1] > 5000.0 && (size[0] > 1000.0 || sheet == SheetHeight::Tall);
+                let least = if is_unfolded { 200 } else { 15 };
+                assert!(texts.len() > least, "{size:?}, {sheet:?}: {} texts", texts.len());
                 let elided = texts.iter().filter(|text| text.elided);
                 cut.extend(elided.map(|text| format!("{size:?}: {}", text.text())));
             }
         }
     }
     assert!(cut.is_empty(), "{cut:?}");
-    assert!(count > 1000, "{count}");
+}
+
+/// A scene with the optional parts of most sections: light paths, fog, a sky, lights, depth of field, section planes.
+fn with_all_parts() -> Scene {
+    let mut scene = Scene::default();
+    scene.trace_paths();
+    scene.integrator.firefly_limit = Some(10.0);
+    (scene.fog.density, scene.fog.height) = (0.5, Some(1.0));
+    scene.lights.rig.kind = RigKind::Sky;
+    scene.lights.environment.push(EnvironmentLight::default());
+    scene.lights.point.push(PointLight::default());
+    scene.camera.lens.depth_of_field = true;
+    scene.fractal.section_planes.push(SectionPlane::default());
+    scene
 }

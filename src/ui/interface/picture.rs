@@ -205,8 +205,6 @@ impl Interface {
         for tool in in_row {
             let add = |ui: &mut Ui| buttons.add(ui, tool.button);
             let button = ui.add_enabled_ui(tool.is_enabled, add).inner;
-            let is_asked_why = !tool.is_enabled && takes_press(ui, &button);
-            commands.extend(is_asked_why.then_some(tool.command));
             self.rects.record(tool.rect, &button);
             let is_on = match tool.command {
                 Command::FindPlaces => self.places.are_shown(),
@@ -216,7 +214,7 @@ impl Interface {
             if is_on {
                 floating::mark(ui, &button);
             }
-            self.use_tool(tool, &button, commands);
+            self.use_tool(ui, tool, &button, commands);
         }
         if !in_menu.is_empty() {
             let hover = ("More tools", "Shows the tools that do not fit in this row");
@@ -250,9 +248,7 @@ impl Interface {
                     let button = button.help(hover).disabled_help(hover);
                     has_focus |= button.has_focus();
                     self.rects.record(tool.rect, &button);
-                    let is_asked_why = !tool.is_enabled && takes_press(ui, &button);
-                    commands.extend(is_asked_why.then_some(tool.command));
-                    if is_asked_why || self.use_tool(tool, &button, commands) {
+                    if self.use_tool(ui, tool, &button, commands) {
                         ui.close();
                     }
                 }
@@ -276,8 +272,24 @@ impl Interface {
     }
 
     /// Runs the command of a clicked tool, and returns whether it ran. A pointer shows the view before the last change
-    /// while it is down; Enter or a screen reader's click runs the command, which lasts two seconds.
-    fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
+    /// while it is down; Enter or a screen reader's click runs the command, which lasts two seconds. The command of a
+    /// disabled tool runs at a press: it says why it does nothing.
+    fn use_tool(
+        &mut self,
+        ui: &Ui,
+        tool: &Tool,
+        button: &Response,
+        commands: &mut Vec<Command>,
+    ) -> bool {
+        if !tool.is_enabled {
+            // egui gives a press on a disabled button to what lies below it: here the picture, which would turn.
+            let id = button.id.with("disabled");
+            let press = ui.interact(button.rect, id, Sense::CLICK | Sense::DRAG);
+            let is_pressed =
+                press.is_pointer_button_down_on() && ui.input(|i| i.pointer.any_pressed());
+            commands.extend(is_pressed.then_some(tool.command));
+            return is_pressed;
+        }
         let is_by_pointer = button.ctx.input(|input| input.pointer.any_released());
         self.is_comparing |= tool.is_held && button.is_pointer_button_down_on();
         let is_run = button.clicked() && !(tool.is_held && is_by_pointer);
@@ -339,14 +351,6 @@ impl Interface {
         tools.push(Tool { is_held: true, is_enabled, ..before });
         tools
     }
-}
-
-/// Takes the presses on a disabled button, and returns whether it was clicked.
-///
-/// egui gives them to what lies below the button: here the picture, which would turn.
-fn takes_press(ui: &Ui, button: &Response) -> bool {
-    let id = button.id.with("disabled");
-    ui.interact(button.rect, id, Sense::CLICK | Sense::DRAG).clicked()
 }
 
 /// Where the keyboard focus is, as the menu of tools sees it.
