@@ -9,9 +9,6 @@ use mandelight::{scene::presets, ui::Settings};
 
 use crate::stage::*;
 
-/// The notice where the view before the last change is asked for and nothing has changed.
-const NO_EARLIER_VIEW: &str = "There is no earlier view.";
-
 fn set_power(harness: &mut Harness<'_, Stage>, power: f64) {
     slider(harness, "Power").set_value_accesskit(power);
     harness.run();

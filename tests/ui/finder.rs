@@ -202,7 +202,7 @@ fn the_view_before_the_last_change_is_shown_for_two_seconds() {
     let before = scene(&harness).clone();
     find(&mut harness, "before: show");
     harness.run_steps(3);
-    harness.get_by_label_contains("There is no earlier view.");
+    harness.get_by_label_contains(NO_EARLIER_VIEW);
     slider(&harness, "Power").set_value_accesskit(5.0);
     harness.run();
     let after = scene(&harness).clone();

@@ -430,10 +430,10 @@ fn hints_go_when_they_are_followed() {
 fn holding_a_key_shows_the_view_before_the_last_change() {
     let mut harness = window();
     let start = scene(&harness).clone();
-    assert!(harness.query_by_label_contains("There is no earlier view.").is_none());
+    assert!(harness.query_by_label_contains(NO_EARLIER_VIEW).is_none());
     harness.key_press(Key::C);
     harness.run_steps(3);
-    harness.get_by_label_contains("There is no earlier view.");
+    harness.get_by_label_contains(NO_EARLIER_VIEW);
     let center = view_center(&harness);
     drag(&mut harness, center, center + vec2(80.0, 20.0), 4);
     let turned = scene(&harness).clone();

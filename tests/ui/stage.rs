@@ -32,6 +32,9 @@ pub struct Stage {
     pub has_share_sheet: bool,
 }
 
+/// The notice where the view before the last change is asked for and nothing has changed.
+pub const NO_EARLIER_VIEW: &str = "There is no earlier view.";
+
 /// Settings with everything unfolded.
 pub fn unfolded() -> Settings {
     Settings { more_open: true, sections: all_sections_open(), ..Settings::default() }
