@@ -366,7 +366,7 @@ fn the_firefly_limit_is_reported() {
     let output = run_with_input(&arguments.collect::<Vec<_>>(), document.as_bytes());
     assert_eq!(code(&output), 0, "{}", said(&output));
     let line = said(&output);
-    let percent = line.split("took away ").nth(1).and_then(|rest| rest.split(' ').next());
+    let percent = line.split("limit removed ").nth(1).and_then(|rest| rest.split(' ').next());
     let percent: f64 = percent.and_then(|percent| percent.parse().ok()).expect("a percentage");
     assert!((1.0..100.0).contains(&percent), "{line}");
 }
