@@ -83,7 +83,7 @@ pub(super) struct SubFrameView {
     sub_frames: SubFrames,
     /// Index of the sub-frame that is being drawn.
     index: u32,
-    /// What the firefly limit took away from the complete sub-frames; none without a limit.
+    /// What the firefly limit removed from the complete sub-frames; none without a limit.
     clamped_light: Option<ClampedLight>,
     is_finished: bool,
 }
@@ -162,12 +162,12 @@ impl SubFrameView {
         (f64::from(self.index) + done) / f64::from(self.count())
     }
 
-    /// What the firefly limit took away from all complete sub-frames of all regions; none without a limit.
+    /// What the firefly limit removed from all complete sub-frames of all regions; none without a limit.
     pub fn clamped_light(&self) -> Option<ClampedLight> {
         self.clamped_light
     }
 
-    /// Sets what the firefly limit took away from regions that another view drew.
+    /// Sets what the firefly limit removed from regions that another view drew.
     pub fn set_clamped_light(&mut self, clamped_light: Option<ClampedLight>) {
         self.clamped_light = clamped_light;
     }

@@ -63,7 +63,7 @@ pub enum StillStatus {
     },
     /// All rows are written: call [`StillJob::finish`].
     Done {
-        /// Part of the light that the firefly limit took away, 0 to 1; none without a limit.
+        /// Part of the light that the firefly limit removed, 0 to 1; none without a limit.
         clamped_fraction: Option<f64>,
     },
 }
@@ -81,7 +81,7 @@ pub struct StillJob<W: Write> {
     tile_index: u32,
     /// The tile whose readback is in flight.
     in_flight: Option<TileInFlight>,
-    /// What the firefly limit took away from the tiles that were read back; none without a limit.
+    /// What the firefly limit removed from the tiles that were read back; none without a limit.
     clamped_light: Option<ClampedLight>,
     /// The band that collects tiles.
     filling: Band,
@@ -103,7 +103,7 @@ pub struct StillJob<W: Write> {
 struct TileInFlight {
     tile: Tile,
     readback: TileReadback,
-    /// What the firefly limit took away up to this tile; none without a limit.
+    /// What the firefly limit removed up to this tile; none without a limit.
     clamped_light: Option<ClampedLight>,
 }
 

@@ -23,7 +23,7 @@ impl NoiseControl {
         self.converged_fraction
     }
 
-    /// What the firefly limit took away; none before the first assessment.
+    /// What the firefly limit removed; none before the first assessment.
     pub fn clamped_light(&self) -> Option<ClampedLight> {
         self.clamped_light
     }

@@ -18,7 +18,7 @@ pub enum Activity {
     Compiling(String),
 }
 
-/// Light of a picture's paths, and what the firefly limit took away; in the same unit.
+/// Light of a picture's paths, and what the firefly limit removed; in the same unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClampedLight {
     /// All light, with what was taken away.
@@ -34,7 +34,7 @@ impl ClampedLight {
     }
 }
 
-/// The part of the light that the firefly limit took away, as text: `0.34 %`.
+/// The part of the light that the firefly limit removed, as text: `0.34 %`.
 pub fn clamped_text(fraction: f64) -> String {
     let percent = 100.0 * fraction;
     if percent > 0.0 && percent < 0.01 {
@@ -79,7 +79,7 @@ pub struct Report {
     pub samples_wanted: u32,
     /// Share of the pixels that have as little noise as asked for; none without a noise target.
     pub converged_fraction: Option<f32>,
-    /// What the firefly limit took away; none without a limit.
+    /// What the firefly limit removed; none without a limit.
     pub clamped_light: Option<ClampedLight>,
     /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.
     pub pixels_per_sample: u32,

@@ -153,7 +153,7 @@ pub fn activity_text(report: &Report, short: bool) -> String {
     }
 }
 
-/// What the firefly limit took away, as a part of a sentence; empty without a limit.
+/// What the firefly limit removed, as a part of a sentence; empty without a limit.
 fn clamped(report: &Report) -> String {
     report.clamped_light.map_or_else(String::new, |light| {
         format!(", {} of the light removed by the firefly limit", clamped_text(light.fraction()))

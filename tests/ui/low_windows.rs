@@ -122,12 +122,8 @@ fn the_time_left_stands_whole_beside_cancel() {
         harness.event(egui::Event::PointerMoved(strip.center_bottom() - egui::vec2(0.0, 20.0)));
         harness.event(wheel(-2000.0));
         harness.run_steps(30);
-        let times = shapes(&harness).into_iter().filter_map(|shape| match shape {
-            egui::Shape::Text(text) if text.galley.text() == "Saving, 123 h 59 min left" => {
-                Some(text)
-            }
-            _ => None,
-        });
+        let times = painted_texts(&harness)
+            .filter(|text| text.galley.text() == "Saving, 123 h 59 min left");
         let [time] = times.collect::<Vec<_>>()[..] else { panic!("no time in {size:?}") };
         assert!(!time.galley.elided && time.galley.rows.len() == 1, "cut off in {size:?}");
         let (time, cancel) = (time.visual_bounding_rect(), rect(&harness, "cancel export"));

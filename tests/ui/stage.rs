@@ -2,7 +2,7 @@
 
 use egui::{
     Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId,
-    TouchPhase, Vec2, accesskit::Role,
+    TouchPhase, Vec2, accesskit::Role, epaint::TextShape,
 };
 use egui_kittest::{Harness, HarnessBuilder, Node, kittest::Queryable as _};
 use mandelight::{
@@ -228,13 +228,18 @@ pub fn shapes<'h>(harness: &'h Harness<'_, Stage>) -> Vec<&'h Shape> {
     shapes
 }
 
+/// The texts that the last frame painted.
+pub fn painted_texts<'h>(harness: &'h Harness<'_, Stage>) -> impl Iterator<Item = &'h TextShape> {
+    shapes(harness).into_iter().filter_map(|shape| match shape {
+        Shape::Text(text) => Some(text),
+        _ => None,
+    })
+}
+
 /// Where the last frame painted this text.
 pub fn painted(harness: &Harness<'_, Stage>, words: &str) -> Vec<Rect> {
-    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
-        Shape::Text(text) if text.galley.text() == words => Some(text.visual_bounding_rect()),
-        _ => None,
-    });
-    texts.collect()
+    let texts = painted_texts(harness).filter(|text| text.galley.text() == words);
+    texts.map(TextShape::visual_bounding_rect).collect()
 }
 
 /// Steps back in the history until there is none, and counts them.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use egui::{Key, Modifiers, Shape};
+use egui::{Key, Modifiers, Rect};
 use egui_kittest::{Harness, kittest::NodeT as _};
 use mandelight::{
     formula::section::SectionPlane,
@@ -19,16 +19,18 @@ const BANNED_PHRASES: [&str; 3] = ["Motion budget", "Fixed to", "Limit reach"];
 /// These a person may meet who opens *More*.
 const EXPERT_PHRASES: [&str; 2] = ["Normals", "Reinhard"];
 
+/// The texts that the last frame painted with their middle in `area`.
+fn texts_in(harness: &Harness<'_, Stage>, area: Rect) -> Vec<String> {
+    painted_texts(harness)
+        .filter(|text| area.contains(text.visual_bounding_rect().center()))
+        .map(|text| text.galley.text().to_owned())
+        .collect()
+}
+
 /// The texts that the last frame painted in the panel.
 fn texts(harness: &Harness<'_, Stage>) -> Vec<String> {
     let panel = harness.state().interface.rects().get("panel").expect("the panel");
-    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
-        Shape::Text(text) if panel.contains(text.visual_bounding_rect().center()) => {
-            Some(text.galley.text().to_owned())
-        }
-        _ => None,
-    });
-    texts.collect()
+    texts_in(harness, panel)
 }
 
 /// All texts of the last frame that are no keys and no formula, and the hover texts of its controls without their keys.
@@ -39,10 +41,7 @@ fn texts_and_help(harness: &Harness<'_, Stage>) -> Vec<String> {
         .chain(shortcuts::FLIGHT.iter().filter_map(|flight| flight.help))
         .map(|(keys, _)| keys)
         .collect();
-    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
-        Shape::Text(text) => Some(text.galley.text().to_owned()),
-        _ => None,
-    });
+    let texts = painted_texts(harness).map(|text| text.galley.text().to_owned());
     let texts = texts.filter(|text| !keys.contains(&text.as_str()) && !text.contains("step {"));
     let nodes = harness.root().children_recursive();
     let help = nodes.filter_map(|node| node.accesskit_node().description());
@@ -136,13 +135,7 @@ fn status_texts() -> Vec<String> {
         harness.state_mut().report.activity = activity;
         harness.run();
         let line = harness.state().interface.rects().get("status").expect("the status line");
-        let texts = shapes(&harness).into_iter().filter_map(|shape| match shape {
-            Shape::Text(text) if line.contains(text.visual_bounding_rect().center()) => {
-                Some(text.galley.text().to_owned())
-            }
-            _ => None,
-        });
-        texts.collect::<Vec<_>>()
+        texts_in(&harness, line)
     });
     said.collect()
 }
@@ -173,10 +166,8 @@ fn the_exposure_is_in_stops_and_has_room() {
     let mut scene = presets::opening();
     scene.tone.exposure = -10.0;
     let harness = stage(scene, Settings::default(), [1280.0, 3000.0]);
-    let whole = shapes(&harness).into_iter().any(|shape| match shape {
-        Shape::Text(text) => text.galley.text() == "-10.0 stops" && !text.galley.elided,
-        _ => false,
-    });
+    let whole = painted_texts(&harness)
+        .any(|text| text.galley.text() == "-10.0 stops" && !text.galley.elided);
     assert!(whole, "{:?}", texts(&harness));
 }
 
@@ -203,11 +194,7 @@ fn no_name_is_cut_off() {
                     touch(&mut harness);
                 }
                 harness.run();
-                let texts = shapes(&harness).into_iter().filter_map(|shape| match shape {
-                    Shape::Text(text) => Some(&text.galley),
-                    _ => None,
-                });
-                let texts: Vec<_> = texts.collect();
+                let texts: Vec<_> = painted_texts(&harness).map(|text| &text.galley).collect();
                 let is_unfolded =
                     size[1] > 5000.0 && (size[0] > 1000.0 || sheet == SheetHeight::Tall);
                 let least = if is_unfolded { 200 } else { 15 };
