@@ -25,7 +25,10 @@ fn over_relaxation() -> OverRelaxation {
 
 // Radius of the ball that a ray takes for empty at a point with the estimate `ahead`, after `spent` of `most` steps.
 fn empty_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
-    return min(max(ahead.step, step_escalation(spent, most) * ahead.distance), over.max_ball);
+    // Where the derivative vanishes, as in front of the origin of a Julia set, the estimate is far longer than any way
+    // through the set.
+    let distance = min(ahead.distance, frame.march.bounding_radius / frame.march.scale);
+    return min(max(ahead.step, step_escalation(spent, most) * distance), over.max_ball);
 }
 
 // How far to step back: to the edge of the last ball if the ball here does not overlap it, since the gap

@@ -51,17 +51,8 @@ pub const HALVINGS: u32 = 5;
 pub struct MarchPolicy {
     /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
     pub relaxation: f32,
-    /// Radius of the largest ball that a ray takes for empty in views that are drawn about an anchor, over the radius of
-    /// the ball before; at least 1.
-    ///
-    /// In these views the stretch along the ray limits a step. It vanishes where a coordinate of an orbit has an
-    /// extremum along the ray, and then any step is within that limit. Balls shrink before such a point, so that the limit of
-    /// their growth holds at the point itself.
-    pub deep_ball_growth: f32,
     /// Radius of the ball that a cone treats as empty, over the safe step.
     pub ball_part: f32,
-    /// The same in views that are drawn about an anchor.
-    pub deep_ball_part: f32,
     /// True if the estimate has false minima thinner than a pixel.
     ///
     /// Hits are then checked over half a hit distance.
@@ -80,15 +71,26 @@ impl Default for MarchPolicy {
     fn default() -> Self {
         Self {
             relaxation: 1.4,
-            deep_ball_growth: 2.0,
             ball_part: 1.0,
-            deep_ball_part: 1.0,
             checks_hits: false,
             shadow_cone: 0.004,
             shadow_margin: 0.5,
             shadow_min_step: 0.0,
         }
     }
+}
+
+/// Limits of steps that come of an orbit's Jacobian at one point, which holds only near that point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JacobianSteps {
+    /// [`MarchPolicy::ball_part`] with such steps.
+    pub ball_part: f32,
+    /// Radius of the largest ball that a ray takes for empty, over the radius of the ball before; at least 1.
+    ///
+    /// The stretch along the ray limits a step. It vanishes where a coordinate of an orbit has an extremum along the
+    /// ray, and then any step is within that limit. Balls shrink before such a point, so that the limit of their
+    /// growth holds at the point itself.
+    pub ball_growth: f32,
 }
 
 /// Distance estimate at a point, in scene units.
@@ -278,8 +280,9 @@ pub fn trace<F: DistanceField + ?Sized>(
             return Ok(None);
         }
         let (estimate, hit) = (field.estimate(ray.at(depth)), cone * depth);
-        let escalated_step =
-            step_escalation(f64::from(i) / f64::from(max_steps)) * estimate.distance;
+        // A Julia set's estimates in front of the origin are far longer than any way through the set.
+        let escalated_step = step_escalation(f64::from(i) / f64::from(max_steps))
+            * estimate.distance.min(field.bounding_radius());
         if estimate.distance <= hit {
             if !field.needs_hit_check() {
                 return Ok(Some(depth));

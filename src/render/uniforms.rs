@@ -28,7 +28,7 @@ use super::{
     sub_frame::SubFrame,
 };
 use crate::{
-    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
+    formula::{JacobianSteps, Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
@@ -142,8 +142,8 @@ fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         relaxation: policy.relaxation,
-        ball_growth: if reference.is_some() { policy.deep_ball_growth } else { UNLIMITED_GROWTH },
-        ball_part: if reference.is_some() { policy.deep_ball_part } else { policy.ball_part },
+        ball_growth: UNLIMITED_GROWTH,
+        ball_part: policy.ball_part,
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,
@@ -255,6 +255,9 @@ impl Inputs {
         );
         let lights = lights(scene, space);
         frame.fog = frame.fog.lit_by(&lights);
+        if let Some(JacobianSteps { ball_part, ball_growth }) = formula.jacobian_steps {
+            frame.march = March { ball_part, ball_growth, ..frame.march };
+        }
         Self {
             frame,
             formula,

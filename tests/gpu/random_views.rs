@@ -1,7 +1,8 @@
 //! Pictures of random views against brackets from a fine march with numbers of 256 bits.
 //!
 //! `cargo test --release --test gpu random_views -- --ignored --nocapture` draws 200 other views each run and prints its
-//! seed; `MANDELIGHT_SEED` draws those of a run again, and `MANDELIGHT_VIEWS` sets their number. `MANDELIGHT_VIEW=FILE`
+//! seed; `MANDELIGHT_SEED` draws those of a run again, `MANDELIGHT_VIEWS` sets their number, and
+//! `MANDELIGHT_DECADES=6` draws them from 1 to 1e-6 scene units away instead of to 1e-26. `MANDELIGHT_VIEW=FILE`
 //! judges the scene of one file instead, such as a view that a run has stored.
 
 use std::{
@@ -35,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 16] = [
+const HARD: [(&str, Size); 20] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -62,6 +63,13 @@ const HARD: [(&str, Size); 16] = [
     (include_str!("hard_views/first_step.json"), SIZE),
     // Power 2 at 9e-22: a third of a step, as the stretch along a ray limits it, is in front of thin sheets.
     (include_str!("hard_views/sheets.json"), SIZE),
+    // Powers 8 and 4 at 2e-5, 1e-2 and 4e-4: all orbits in view pass close to the polar axis once, which stretches them
+    // sideways 17 to 500 times as much as the estimate's derivative says.
+    (include_str!("hard_views/near_axis.json"), SIZE),
+    (include_str!("hard_views/near_axis_wide.json"), SIZE),
+    (include_str!("hard_views/near_axis_julia.json"), SIZE),
+    // A Julia set of power 16 from inside: rays pass points whose orbits meet the origin, where estimates are 1e7.
+    (include_str!("hard_views/hollow.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;
@@ -204,6 +212,15 @@ fn twenty_views_are_true() {
     assert!(broken.is_empty(), "{broken:#?}");
 }
 
+/// The nearest views that are mostly drawn in plain f32, scene units.
+const NEAREST_PLAIN: f64 = 1e-6;
+
+#[test]
+fn forty_views_from_farther_away_are_true() {
+    let broken = judge_views(SEED, 40, |random, _| random_view(random, NEAREST_PLAIN));
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
 /// Whole powers that random views do not have.
 const OTHER_POWERS: [f64; 6] = [7.0, 10.0, 11.0, 13.0, 14.0, 15.0];
 
@@ -228,6 +245,7 @@ fn random_views_are_true() {
         return;
     }
     let wanted = number("MANDELIGHT_VIEWS").unwrap_or(200) as usize;
-    let broken = judge_views(seed | 1, wanted, |random, _| random_view(random, NEAREST));
+    let nearest = number("MANDELIGHT_DECADES").map_or(NEAREST, |n| 0.1_f64.powi(n as i32));
+    let broken = judge_views(seed | 1, wanted, |random, _| random_view(random, nearest));
     assert!(broken.is_empty(), "{broken:#?}");
 }

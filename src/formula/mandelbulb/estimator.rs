@@ -36,8 +36,9 @@ use crate::formula::{DistanceField, Estimate, OrbitPosition, bounds::slowest_esc
 
 /// Greatest stretch along the parallels that one step adds to dg, over n·r^(n−1).
 ///
-/// Uncapped, the stretch would stop every ray at the poles.
-pub const SIDEWAYS_MAX: f64 = 10.0;
+/// Uncapped, the stretch would stop every ray at the poles. With 10, rays passed walls in views whose orbits pass the polar
+/// axis: `docs/notes/marching.md`.
+pub const SIDEWAYS_MAX: f64 = 100.0;
 /// Longest step of a ray of a Julia set, over the way by which an orbit point would get to the origin.
 const ORIGIN_PART: f64 = 0.5;
 /// Step of a deep ray over the estimate by the Jacobian's norm (Frobenius).

@@ -1,7 +1,7 @@
 //! The Mandelbulb's parameters: their table, and their values as a type.
 
 use crate::formula::{
-    FormulaRef, Fractal, MarchPolicy,
+    FormulaRef, Fractal, JacobianSteps, MarchPolicy,
     param::{self, params},
     table::{Choice, Field, Kind, Value},
 };
@@ -18,11 +18,11 @@ params! {
 /// The estimate of lower powers has false minima: see [`super::estimator`].
 pub const HIT_CHECK_BELOW: f64 = 4.0;
 
-/// Part of a deep ray's safe step that a cone treats as empty around a point.
+/// Limits of the steps of kernels that follow the stretch of a ray's direction.
 ///
-/// The step holds along one direction, and where the stretch of directions changes fast, a cone of the whole
+/// Such a step holds along one direction, and where the stretch of directions changes fast, a cone of the whole
 /// step passes surfaces.
-const DEEP_BALL_PART: f32 = 0.4;
+pub const JACOBIAN_STEPS: JacobianSteps = JacobianSteps { ball_part: 0.4, ball_growth: 2.0 };
 
 /// In document order, which [`Mandelbulb::of`] and the conversion back follow.
 pub const FIELDS: &[Field] = &[
@@ -198,9 +198,7 @@ impl Mandelbulb {
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
         MarchPolicy {
             relaxation: (1.0 - relaxed) + usual.relaxation * relaxed,
-            deep_ball_growth: usual.deep_ball_growth,
             ball_part: (0.25 * power - 0.5).clamp(0.7, 1.0),
-            deep_ball_part: DEEP_BALL_PART,
             checks_hits: self.power < HIT_CHECK_BELOW,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
             shadow_margin: mix(usual.shadow_margin, 0.15),
@@ -247,14 +245,7 @@ mod tests {
     fn high_powers_march_by_the_usual_policy() {
         for power in [4.0, 8.0, 16.0] {
             let policy = Mandelbulb { power, ..Default::default() }.march_policy();
-            assert_eq!(
-                policy,
-                MarchPolicy {
-                    ball_part: policy.ball_part,
-                    deep_ball_part: DEEP_BALL_PART,
-                    ..Default::default()
-                }
-            );
+            assert_eq!(policy, MarchPolicy { ball_part: policy.ball_part, ..Default::default() });
         }
     }
 }

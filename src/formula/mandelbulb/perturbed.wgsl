@@ -10,7 +10,7 @@ override NEAR_STEPS: u32 = 2u;
 override HAS_SERIES: bool = true;
 
 // True if the stretch of the ray's own direction sets a ray's step, false if a product of bounds does.
-override FOLLOWS_DIRECTION: bool = HAS_SERIES || NEAR_STEPS == 0u;
+override FOLLOWS_DIRECTION: bool = true;
 
 // Deep views are of whole powers.
 const HAS_SEAM = false;

@@ -13,8 +13,8 @@
 override POWER: u32 = 0u;
 
 // Greatest stretch along the parallels that a step adds to dg, over n |z|^(n - 1): uncapped, the stretch
-// would stop every ray at the poles.
-const SIDEWAYS_MAX = 10.0;
+// would stop every ray at the poles. With 10, rays passed walls in views whose orbits pass the polar axis.
+const SIDEWAYS_MAX = 100.0;
 // The cap for the Jacobian of deep views, most of which are far from the poles: with 30, rays passed
 // lips that they should hit.
 const DEEP_SIDEWAYS_MAX = 300.0;

@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 use super::{
     deep::{self, Reference},
     estimator::{self, SIDEWAYS_MAX},
-    parameters::{MANDELBULB, Mandelbulb},
+    parameters::{JACOBIAN_STEPS, MANDELBULB, Mandelbulb},
     variant::{MAX_NEAR_STEPS, NearSteps, Steps, Variant},
 };
 use crate::{
@@ -186,7 +186,8 @@ pub fn pack(mandelbulb: &Mandelbulb, view: &PackedFor<'_>) -> Packed {
 fn packed_with(variant: Variant, uniforms: &FormulaUniforms, table: Arc<[u8]>) -> Packed {
     let formula = FormulaRef(&MANDELBULB);
     let kernel = Kernel { formula, variant: variant.number() };
-    Packed { kernel, uniforms: uniforms.to_bytes(), table }
+    let jacobian_steps = variant.has_jacobian_steps().then_some(JACOBIAN_STEPS);
+    Packed { kernel, uniforms: uniforms.to_bytes(), table, jacobian_steps }
 }
 
 fn fractal(set: &Mandelbulb, view: &PackedFor<'_>, reference: Option<&Reference>) -> Fractal {

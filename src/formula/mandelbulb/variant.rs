@@ -104,6 +104,18 @@ impl Variant {
         self.steps != Steps::Plain
     }
 
+    /// Whether a ray's step comes of its orbit's Jacobian at one point.
+    ///
+    /// Steps of the other variants are a product of bounds, and hold in every direction.
+    pub fn has_jacobian_steps(self) -> bool {
+        match self.steps {
+            Steps::Plain => false,
+            // The product of bounds grows too large over the many steps of these orbits.
+            Steps::Perturbed(NearSteps { count, has_series }) => has_series || count == 0,
+            Steps::RotatingFrame => true,
+        }
+    }
+
     /// The overrides that specialize the variant's kernels.
     pub fn overrides(self) -> Vec<(&'static str, f64)> {
         let mut overrides = Vec::new();
@@ -115,6 +127,7 @@ impl Variant {
         if let Steps::Perturbed(NearSteps { count, has_series }) = self.steps {
             overrides.push(("NEAR_STEPS", f64::from(count)));
             overrides.push(("HAS_SERIES", f64::from(has_series)));
+            overrides.push(("FOLLOWS_DIRECTION", f64::from(self.has_jacobian_steps())));
         }
         overrides
     }
