@@ -59,16 +59,15 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 // which of them a ray meets is chance.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
-// A ray that has spent this part of its steps needs only `LATE_CHECKS`. It creeps through dust, and six checks would let it
-// pass layers that are thinner than two hit distances.
-const LATE_STEPS_PART = 0.62;
+// A ray that has spent the part `late_steps` of its steps needs only `LATE_CHECKS`. It creeps through dust, and six checks
+// would let it pass layers that are thinner than two hit distances.
 const LATE_CHECKS = 1u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
 
 // Looks that a hit takes, after `spent` of `most` steps.
 fn required_looks(spent: u32, most: u32) -> u32 {
-    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > LATE_STEPS_PART * f32(most));
+    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > frame.march.late_steps * f32(most));
 }
 
 // A hit that is being checked.

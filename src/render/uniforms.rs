@@ -6,6 +6,7 @@
 mod background;
 mod camera;
 mod lights;
+mod march;
 mod media;
 mod paths;
 mod shared;
@@ -13,8 +14,6 @@ mod surface;
 mod tone;
 
 use std::sync::Arc;
-
-use glam::DVec3;
 
 pub use lights::lights;
 pub use shared::*;
@@ -28,7 +27,7 @@ use super::{
     sub_frame::SubFrame,
 };
 use crate::{
-    formula::{JacobianSteps, Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
+    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
@@ -44,26 +43,6 @@ pub const GRADIENT_ENTRIES: usize = 256;
 /// The greatest value of a formula's channel that colours tell apart.
 const MAX_CHANNEL: f64 = 4.0;
 
-/// Most loop turns of an invocation, over all its loops.
-///
-/// llvmpipe stops an invocation after 65,535 turns; other drivers have watchdogs.
-const LOOP_TURNS: u32 = 60_000;
-
-/// Loop turns of an orbit besides its steps.
-const LOOPS_OF_AN_ORBIT: u32 = 8;
-
-/// Most steps of a camera ray: the longest silhouette rays need about 300.
-const MARCH_STEPS: u32 = 1024;
-
-/// Most steps of a shadow ray.
-const SHADOW_STEPS: u32 = 320;
-
-/// Growth of balls in views whose steps are bounds in every direction.
-const UNLIMITED_GROWTH: f32 = 1e9;
-
-/// Least hit distance in render space: below it f32 positions near the surface coincide.
-const FINEST_HIT: f32 = 4e-7;
-
 impl FrameUniforms {
     /// The uniforms of `scene` in `region`; finds the render space itself.
     pub fn new(scene: &Scene, region: Region) -> Self {
@@ -72,7 +51,7 @@ impl FrameUniforms {
 
     /// The uniforms of `scene` in `region`, in the render space `space`.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let march = march(scene, region, space);
+        let march = march::march(scene, region, space);
         let iterations = march.iterations;
         Self {
             camera: camera::camera(scene, region, space),
@@ -118,53 +97,6 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
         directions: indirect.directions,
         samples: indirect.samples,
         source_px: region.size_px,
-    }
-}
-
-/// The march policy and its limits in a view.
-fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
-    let model = space.model();
-    let fractal = model.fractal();
-    let reference = space.reference();
-    let footprint = space.footprint(scene, region);
-    let iterations = reference.map_or_else(
-        || model.iterations_for(footprint),
-        |reference| reference.iterations_for(fractal, footprint),
-    );
-    let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
-    let policy = fractal.formula().march_policy(fractal);
-    March {
-        anchor: anchor.as_vec3().to_array(),
-        scale: space.scale() as f32,
-        bounding_radius: model.bounding_radius() as f32,
-        iterations,
-        march_steps: march_steps(iterations, reference.is_some()),
-        shadow_steps: shadow_steps(iterations, reference.is_some()),
-        finest_hit: FINEST_HIT,
-        relaxation: policy.relaxation,
-        ball_growth: UNLIMITED_GROWTH,
-        ball_part: policy.ball_part,
-        checks_hits: policy.checks_hits.into(),
-        shadow_cone: policy.shadow_cone,
-        shadow_margin: policy.shadow_margin,
-        shadow_min_step: policy.shadow_min_step,
-    }
-}
-
-/// Most steps of a camera ray.
-///
-/// Deep views use all loop turns: rays creep near the axis, and the way from a light outside the set
-/// into the depth takes additional steps.
-fn march_steps(iterations: u32, is_deep: bool) -> u32 {
-    let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
-    most.min(LOOP_TURNS / (iterations + LOOPS_OF_AN_ORBIT))
-}
-
-fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
-    if is_deep {
-        march_steps(iterations, true)
-    } else {
-        SHADOW_STEPS.min(march_steps(iterations, false))
     }
 }
 
@@ -255,9 +187,7 @@ impl Inputs {
         );
         let lights = lights(scene, space);
         frame.fog = frame.fog.lit_by(&lights);
-        if let Some(JacobianSteps { ball_part, ball_growth }) = formula.jacobian_steps {
-            frame.march = March { ball_part, ball_growth, ..frame.march };
-        }
+        frame.march = frame.march.limited(formula.jacobian_steps);
         Self {
             frame,
             formula,

@@ -1,0 +1,95 @@
+//! Uniforms of the march: the range of rays, and how they step.
+
+use glam::DVec3;
+
+use super::March;
+use crate::{
+    formula::JacobianSteps,
+    render::{Region, space::RenderSpace},
+    scene::Scene,
+};
+
+/// Most loop turns of an invocation, over all its loops.
+///
+/// llvmpipe stops an invocation after 65,535 turns; other drivers have watchdogs.
+const LOOP_TURNS: u32 = 60_000;
+
+/// Loop turns of an orbit besides its steps.
+const LOOPS_OF_AN_ORBIT: u32 = 8;
+
+/// Most steps of a camera ray: the longest silhouette rays need about 300.
+const MARCH_STEPS: u32 = 1024;
+
+/// Most steps of a shadow ray.
+const SHADOW_STEPS: u32 = 320;
+
+/// Part of a deep ray's steps after which it counts as creeping through dust.
+///
+/// In plain views the rays that take so many steps pass the false minima of power 2 along silhouettes.
+const LATE_STEPS_OF_DEEP_RAYS: f32 = 0.62;
+
+/// Growth of balls in views whose steps are bounds in every direction.
+const UNLIMITED_GROWTH: f32 = 1e9;
+
+/// Least hit distance in render space: below it f32 positions near the surface coincide.
+const FINEST_HIT: f32 = 4e-7;
+
+/// The march policy and its limits in a view.
+pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
+    let model = space.model();
+    let fractal = model.fractal();
+    let reference = space.reference();
+    let footprint = space.footprint(scene, region);
+    let iterations = reference.map_or_else(
+        || model.iterations_for(footprint),
+        |reference| reference.iterations_for(fractal, footprint),
+    );
+    let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
+    let policy = fractal.formula().march_policy(fractal);
+    March {
+        anchor: anchor.as_vec3().to_array(),
+        scale: space.scale() as f32,
+        bounding_radius: model.bounding_radius() as f32,
+        iterations,
+        march_steps: march_steps(iterations, reference.is_some()),
+        shadow_steps: shadow_steps(iterations, reference.is_some()),
+        finest_hit: FINEST_HIT,
+        relaxation: policy.relaxation,
+        ball_growth: UNLIMITED_GROWTH,
+        ball_part: policy.ball_part,
+        late_steps: if reference.is_some() { LATE_STEPS_OF_DEEP_RAYS } else { 1.0 },
+        checks_hits: policy.checks_hits.into(),
+        shadow_cone: policy.shadow_cone,
+        shadow_margin: policy.shadow_margin,
+        shadow_min_step: policy.shadow_min_step,
+    }
+}
+
+/// Most steps of a camera ray.
+///
+/// Deep views use all loop turns: rays creep near the axis, and the way from a light outside the set
+/// into the depth takes additional steps.
+fn march_steps(iterations: u32, is_deep: bool) -> u32 {
+    let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
+    most.min(LOOP_TURNS / (iterations + LOOPS_OF_AN_ORBIT))
+}
+
+fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
+    if is_deep {
+        march_steps(iterations, true)
+    } else {
+        SHADOW_STEPS.min(march_steps(iterations, false))
+    }
+}
+
+impl March {
+    /// The same march within the limits of steps that come of an orbit's Jacobian, if the kernel has such steps.
+    pub fn limited(self, steps: Option<JacobianSteps>) -> Self {
+        match steps {
+            Some(JacobianSteps { ball_part, ball_growth }) => {
+                Self { ball_part, ball_growth, ..self }
+            }
+            None => self,
+        }
+    }
+}
