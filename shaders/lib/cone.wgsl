@@ -16,7 +16,7 @@ const MAX_BALL = 1e18;
 fn clear_cone(
     fractal: Fractal, origin: vec3f, axis: vec3f, spread: f32, start: f32, hit_cone: f32,
 ) -> f32 {
-    // A safe step holds in the ray's direction only; this part of it is an empty ball.
+    // The part of a safe step that is an empty ball: a step by the Jacobian holds near one point and direction only.
     let part = frame.march.ball_part;
     var t = start;
     var i = 0u;

@@ -25,8 +25,7 @@ fn over_relaxation() -> OverRelaxation {
 
 // Radius of the ball that a ray takes for empty at a point with the estimate `ahead`, after `spent` of `most` steps.
 fn empty_ball(over: OverRelaxation, ahead: Estimate, spent: u32, most: u32) -> f32 {
-    // Where the derivative vanishes, as in front of the origin of a Julia set, the estimate is far longer than any way
-    // through the set.
+    // See `formula::march::step_escalation`.
     let distance = min(ahead.distance, frame.march.bounding_radius / frame.march.scale);
     return min(max(ahead.step, step_escalation(spent, most) * distance), over.max_ball);
 }
@@ -48,7 +47,8 @@ fn next_step(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
     return step;
 }
 
-// Least step over the estimate, after `spent` of `most` steps: `formula::march::step_escalation`.
+// Least step over the estimate, or over the bounding radius if that is less, after `spent` of `most` steps:
+// `formula::march::step_escalation`.
 fn step_escalation(spent: u32, most: u32) -> f32 {
     let part = f32(spent) / f32(most);
     return part * part * part * part;
@@ -59,15 +59,15 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 // which of them a ray meets is chance.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
-// A ray that has spent the part `late_steps` of its steps needs only `LATE_CHECKS`. It creeps through dust, and six checks
-// would let it pass layers that are thinner than two hit distances.
+// After the part `late_part` of its steps a ray needs only `LATE_CHECKS`: it creeps through dust, and six checks would let it
+// pass layers that are thinner than two hit distances.
 const LATE_CHECKS = 1u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
 
 // Looks that a hit takes, after `spent` of `most` steps.
 fn required_looks(spent: u32, most: u32) -> u32 {
-    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > frame.march.late_steps * f32(most));
+    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > frame.march.late_part * f32(most));
 }
 
 // A hit that is being checked.

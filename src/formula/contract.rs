@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{
     kernel_files::KernelFiles,
-    march::{DistanceField, JacobianSteps, MarchPolicy},
+    march::{DistanceField, MarchPolicy, StepLimits},
     param,
     recurrence::Recurrence,
     section::{self, SectionPlane},
@@ -442,8 +442,8 @@ pub struct Packed {
     ///
     /// At most [`MAX_TABLE_BYTES`].
     pub table: Arc<[u8]>,
-    /// The limits of the kernel's steps; none if each step is a bound in every direction.
-    pub jacobian_steps: Option<JacobianSteps>,
+    /// Limits of steps by the Jacobian at one point; none if a product of bounds sets the steps.
+    pub step_limits: Option<StepLimits>,
 }
 
 /// Maximum size of `FormulaUniforms`, in bytes.

@@ -52,6 +52,8 @@ pub struct MarchPolicy {
     /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
     pub relaxation: f32,
     /// Radius of the ball that a cone treats as empty, over the safe step.
+    ///
+    /// [`StepLimits::ball_part`] replaces it for kernels with such limits.
     pub ball_part: f32,
     /// True if the estimate has false minima thinner than a pixel.
     ///
@@ -80,9 +82,9 @@ impl Default for MarchPolicy {
     }
 }
 
-/// Limits of steps that come of an orbit's Jacobian at one point, which holds only near that point.
+/// Limits of steps that come from an orbit's Jacobian at one point, which holds only near that point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JacobianSteps {
+pub struct StepLimits {
     /// [`MarchPolicy::ball_part`] with such steps.
     pub ball_part: f32,
     /// Radius of the largest ball that a ray takes for empty, over the radius of the ball before; at least 1.
@@ -280,7 +282,6 @@ pub fn trace<F: DistanceField + ?Sized>(
             return Ok(None);
         }
         let (estimate, hit) = (field.estimate(ray.at(depth)), cone * depth);
-        // A Julia set's estimates in front of the origin are far longer than any way through the set.
         let escalated_step = step_escalation(f64::from(i) / f64::from(max_steps))
             * estimate.distance.min(field.bounding_radius());
         if estimate.distance <= hit {
@@ -297,7 +298,9 @@ pub fn trace<F: DistanceField + ?Sized>(
     Err(depth)
 }
 
-/// Least step over the estimate, after the part `spent` of a ray's steps.
+/// Least step over the estimate, or over the bounding radius if that is less, after the part `spent` of a ray's steps.
+///
+/// A Julia set's estimates in front of the origin are far longer than any way through the set.
 ///
 /// At power 3, orbits that pass the axis repeatedly have safe steps hundreds of times shorter than their
 /// estimates; rays that use only safe steps run out of steps before they hit. The fourth power barely

@@ -46,7 +46,7 @@ pub use contract::{
 };
 pub use kernel_files::KernelFiles;
 pub use language::{TextError, TextFormula};
-pub use march::{DistanceField, Estimate, JacobianSteps, MarchPolicy, Ray};
+pub use march::{DistanceField, Estimate, MarchPolicy, Ray, StepLimits};
 pub use recurrence::{OrbitPosition, Recurrence};
 
 /// The folder of formula texts: one file per formula, whose stem is the formula's id.

@@ -50,6 +50,8 @@ impl FrameUniforms {
     }
 
     /// The uniforms of `scene` in `region`, in the render space `space`.
+    ///
+    /// Without the kernel's step limits, which [`Inputs::about`] adds.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
         let march = march::march(scene, region, space);
         let iterations = march.iterations;
@@ -187,7 +189,7 @@ impl Inputs {
         );
         let lights = lights(scene, space);
         frame.fog = frame.fog.lit_by(&lights);
-        frame.march = frame.march.limited(formula.jacobian_steps);
+        frame.march = frame.march.with_step_limits(formula.step_limits);
         Self {
             frame,
             formula,

@@ -175,7 +175,7 @@ impl Steps {
             kernel: Kernel { formula: fractal.formula(), variant: 0 },
             uniforms: uniforms.to_bytes(),
             table: slots.iter().flat_map(|slot| (*slot as f32).to_le_bytes()).collect(),
-            jacobian_steps: None,
+            step_limits: None,
         }
     }
 }

@@ -10,7 +10,7 @@
 //! dr does not bound the Jacobian: two of the power's singular values are n·r^(n−1), but the third,
 //! along the parallels, is n·|Re wⁿ|/ρ, larger near the polar axis. Steps of the whole estimate pass
 //! through thin walls if an orbit comes near the axis. So a second scalar dg grows by the largest of the
-//! three, which is far too careful away from the axis: a ray steps by several times the estimate by dg
+//! three, up to a cap ([`SIDEWAYS_MAX`]), which is far too careful away from the axis: a ray steps by several times the estimate by dg
 //! ([`step_factor`]), and at most by the estimate by dr. `tests/cpu/fractal/properties.rs` counts the
 //! surfaces that rays still miss, against a march with far shorter steps.
 //!
@@ -36,8 +36,8 @@ use crate::formula::{DistanceField, Estimate, OrbitPosition, bounds::slowest_esc
 
 /// Greatest stretch along the parallels that one step adds to dg, over n·r^(n−1).
 ///
-/// Uncapped, the stretch would stop every ray at the poles. With 10, rays passed walls in views whose orbits pass the polar
-/// axis: `docs/notes/marching.md`.
+/// Uncapped, the stretch would stop every ray at the poles; with a lower cap, rays pass walls where all orbits of a view pass
+/// the axis (`docs/notes/marching.md`).
 pub const SIDEWAYS_MAX: f64 = 100.0;
 /// Longest step of a ray of a Julia set, over the way by which an orbit point would get to the origin.
 const ORIGIN_PART: f64 = 0.5;
@@ -265,7 +265,7 @@ pub fn step_factor(fractal: &Mandelbulb) -> f64 {
     (0.75 * fractal.power).clamp(3.0, 6.0)
 }
 
-/// The longest step of a ray inside the bounding sphere, in scene units.
+/// The longest safe step of a ray inside the bounding sphere, in scene units.
 ///
 /// A twentieth of `bounding_radius` for the Julia form, unlimited for the Mandelbulb. A Julia orbit that
 /// passes the origin before it escapes makes dr vanish, so that the estimate grows without bound close to

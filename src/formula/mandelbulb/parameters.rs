@@ -1,7 +1,7 @@
 //! The Mandelbulb's parameters: their table, and their values as a type.
 
 use crate::formula::{
-    FormulaRef, Fractal, JacobianSteps, MarchPolicy,
+    FormulaRef, Fractal, MarchPolicy, StepLimits,
     param::{self, params},
     table::{Choice, Field, Kind, Value},
 };
@@ -18,11 +18,10 @@ params! {
 /// The estimate of lower powers has false minima: see [`super::estimator`].
 pub const HIT_CHECK_BELOW: f64 = 4.0;
 
-/// Limits of the steps of kernels that follow the stretch of a ray's direction.
+/// Limits of steps that come from an orbit's Jacobian at one point.
 ///
-/// Such a step holds along one direction, and where the stretch of directions changes fast, a cone of the whole
-/// step passes surfaces.
-pub const JACOBIAN_STEPS: JacobianSteps = JacobianSteps { ball_part: 0.4, ball_growth: 2.0 };
+/// The Jacobian changes within a step, so that a cone of the whole step passes surfaces.
+pub const STEP_LIMITS: StepLimits = StepLimits { ball_part: 0.4, ball_growth: 2.0 };
 
 /// In document order, which [`Mandelbulb::of`] and the conversion back follow.
 pub const FIELDS: &[Field] = &[

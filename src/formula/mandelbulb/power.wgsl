@@ -13,7 +13,7 @@
 override POWER: u32 = 0u;
 
 // Greatest stretch along the parallels that a step adds to dg, over n |z|^(n - 1): uncapped, the stretch
-// would stop every ray at the poles. With 10, rays passed walls in views whose orbits pass the polar axis.
+// would stop every ray at the poles; with a lower cap, rays pass walls where all orbits of a view pass the axis.
 const SIDEWAYS_MAX = 100.0;
 // The cap for the Jacobian of deep views, most of which are far from the poles: with 30, rays passed
 // lips that they should hit.

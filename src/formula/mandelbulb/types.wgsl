@@ -10,7 +10,7 @@ struct Fractal {
     julia: u32,
     // Sign of the sine term.
     z_sign: f32,
-    // Longest step of a ray.
+    // Longest safe step of a ray.
     max_step: f32,
     // Derivatives are clamped to this so that the next step cannot overflow.
     derivative_max: f32,

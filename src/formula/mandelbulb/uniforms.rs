@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 use super::{
     deep::{self, Reference},
     estimator::{self, SIDEWAYS_MAX},
-    parameters::{JACOBIAN_STEPS, MANDELBULB, Mandelbulb},
+    parameters::{MANDELBULB, Mandelbulb, STEP_LIMITS},
     variant::{MAX_NEAR_STEPS, NearSteps, Steps, Variant},
 };
 use crate::{
@@ -45,7 +45,7 @@ host_shared! {
         julia: u32,
         /// Sign of the sine term.
         z_sign: f32,
-        /// Longest step of a ray, in units of render space.
+        /// Longest safe step of a ray, in units of render space.
         max_step: f32,
         /// Derivatives are clamped to this.
         derivative_max: f32,
@@ -186,8 +186,8 @@ pub fn pack(mandelbulb: &Mandelbulb, view: &PackedFor<'_>) -> Packed {
 fn packed_with(variant: Variant, uniforms: &FormulaUniforms, table: Arc<[u8]>) -> Packed {
     let formula = FormulaRef(&MANDELBULB);
     let kernel = Kernel { formula, variant: variant.number() };
-    let jacobian_steps = variant.has_jacobian_steps().then_some(JACOBIAN_STEPS);
-    Packed { kernel, uniforms: uniforms.to_bytes(), table, jacobian_steps }
+    let step_limits = variant.has_jacobian_steps().then_some(STEP_LIMITS);
+    Packed { kernel, uniforms: uniforms.to_bytes(), table, step_limits }
 }
 
 fn fractal(set: &Mandelbulb, view: &PackedFor<'_>, reference: Option<&Reference>) -> Fractal {

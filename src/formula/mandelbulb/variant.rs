@@ -104,9 +104,9 @@ impl Variant {
         self.steps != Steps::Plain
     }
 
-    /// Whether a ray's step comes of its orbit's Jacobian at one point.
+    /// Whether a ray's step comes from its orbit's Jacobian at one point.
     ///
-    /// Steps of the other variants are a product of bounds, and hold in every direction.
+    /// The other variants bound the step by a product of norms, which holds in every direction, except at seams.
     pub fn has_jacobian_steps(self) -> bool {
         match self.steps {
             Steps::Plain => false,

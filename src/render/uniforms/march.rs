@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::March;
 use crate::{
-    formula::JacobianSteps,
+    formula::StepLimits,
     render::{Region, space::RenderSpace},
     scene::Scene,
 };
@@ -23,10 +23,13 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Part of a deep ray's steps after which it counts as creeping through dust.
+/// Part of a deep ray's steps after which its hits need fewer checks: the ray creeps through dust.
 ///
-/// In plain views the rays that take so many steps pass the false minima of power 2 along silhouettes.
-const LATE_STEPS_OF_DEEP_RAYS: f32 = 0.62;
+/// Plain rays have no such part: those that take many steps pass false minima along silhouettes, which all checks detect.
+const LATE_PART_OF_DEEP_RAYS: f32 = 0.62;
+
+/// The late part of rays whose hits always need all checks.
+const NEVER_LATE: f32 = 1.0;
 
 /// Growth of balls in views whose steps are bounds in every direction.
 const UNLIMITED_GROWTH: f32 = 1e9;
@@ -34,11 +37,12 @@ const UNLIMITED_GROWTH: f32 = 1e9;
 /// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
 
-/// The march policy and its limits in a view.
+/// The march policy and its limits in a view, without the kernel's own limits: see [`March::with_step_limits`].
 pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
     let model = space.model();
     let fractal = model.fractal();
     let reference = space.reference();
+    let is_deep = reference.is_some();
     let footprint = space.footprint(scene, region);
     let iterations = reference.map_or_else(
         || model.iterations_for(footprint),
@@ -51,13 +55,13 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         scale: space.scale() as f32,
         bounding_radius: model.bounding_radius() as f32,
         iterations,
-        march_steps: march_steps(iterations, reference.is_some()),
-        shadow_steps: shadow_steps(iterations, reference.is_some()),
+        march_steps: march_steps(iterations, is_deep),
+        shadow_steps: shadow_steps(iterations, is_deep),
         finest_hit: FINEST_HIT,
         relaxation: policy.relaxation,
         ball_growth: UNLIMITED_GROWTH,
         ball_part: policy.ball_part,
-        late_steps: if reference.is_some() { LATE_STEPS_OF_DEEP_RAYS } else { 1.0 },
+        late_part: if is_deep { LATE_PART_OF_DEEP_RAYS } else { NEVER_LATE },
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,
@@ -83,12 +87,10 @@ fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
 }
 
 impl March {
-    /// The same march within the limits of steps that come of an orbit's Jacobian, if the kernel has such steps.
-    pub fn limited(self, steps: Option<JacobianSteps>) -> Self {
-        match steps {
-            Some(JacobianSteps { ball_part, ball_growth }) => {
-                Self { ball_part, ball_growth, ..self }
-            }
+    /// The same march within the limits of steps by the Jacobian, if the kernel has such limits.
+    pub fn with_step_limits(self, limits: Option<StepLimits>) -> Self {
+        match limits {
+            Some(StepLimits { ball_part, ball_growth }) => Self { ball_part, ball_growth, ..self },
             None => self,
         }
     }
