@@ -63,8 +63,8 @@ const HARD: [(&str, Size); 20] = [
     (include_str!("hard_views/first_step.json"), SIZE),
     // Power 2 at 9e-22: a third of a step, as the stretch along a ray limits it, is in front of thin sheets.
     (include_str!("hard_views/sheets.json"), SIZE),
-    // Power 8 at 2e-5 and 1e-2, and a Julia set of power 4 at 4e-4: all orbits in view pass close to the polar axis once, which stretches them
-    // sideways 17 to 500 times as much as the estimate's derivative says.
+    // Power 8 at 2e-5 and 1e-2, and a Julia set of power 4 at 4e-4: all orbits in view pass close to the polar axis once,
+    // which stretches them sideways 17 to 500 times as much as the estimate's derivative says.
     (include_str!("hard_views/near_axis.json"), SIZE),
     (include_str!("hard_views/near_axis_wide.json"), SIZE),
     (include_str!("hard_views/near_axis_julia.json"), SIZE),
