@@ -1,11 +1,12 @@
-// A random walk over the page by real pointer and key events: resizes to nothing, a hidden tab, exports that
-// are cancelled. Rounds of it are compared: what the page and the GPU hold must not grow.
+// A random walk over the page by real pointer and key events: other sizes and pixel ratios, a canvas without a size, a
+// hidden tab, exports that are cancelled. Rounds of it are compared: what the page and the GPU hold must not grow.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
 const SIZE = { width: 480, height: 320 };
 const SIZES = [SIZE, { width: 320, height: 480 }, { width: 1, height: 1 }, { width: 844, height: 390 }, { width: 200, height: 60 }];
+const PIXEL_RATIOS = [1, 1, 0.5, 1.25, 2];
 const ACTIONS = 100;
 /** The first round makes what is made once. */
 const ROUNDS = 3;
@@ -94,8 +95,16 @@ await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) =>
     document.dispatchEvent(new Event("visibilitychange"));
   }, isHidden);
 
+  const setSize = async (size, deviceScaleFactor) => {
+    await v.tab.setViewportSize(size);
+    await protocol.send("Emulation.setDeviceMetricsOverride", { ...size, deviceScaleFactor, mobile: false });
+  };
+  const setDisplay = (display) => v.tab.evaluate((value) => {
+    document.querySelector("canvas").style.display = value;
+  }, display);
+
   const act = async () => {
-    const what = below(20);
+    const what = below(21);
     if (what < 7) {
       const [name, at] = await target();
       done.push(`click ${name} at ${at}`);
@@ -123,14 +132,20 @@ await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) =>
       done.push(`type ${text}`);
       await keyboard.type(text);
     } else if (what === 17) {
-      const size = pick(SIZES);
-      done.push(`resize to ${size.width}×${size.height}`);
-      await v.tab.setViewportSize(size);
+      const [size, ratio] = [pick(SIZES), pick(PIXEL_RATIOS)];
+      done.push(`resize to ${size.width}×${size.height} at ${ratio} pixels each`);
+      await setSize(size, ratio);
+      v.seen.ratios.push(await v.tab.evaluate(() => window.devicePixelRatio));
     } else if (what === 18) {
       done.push("hide and show");
       await setHidden(true);
       await new Promise((resolve) => setTimeout(resolve, 100));
       await setHidden(false);
+    } else if (what === 19) {
+      done.push("take the canvas away and bring it back");
+      await setDisplay("none");
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      await setDisplay("");
     } else {
       done.push("save, then cancel");
       await keyboard.press("Control+s");
@@ -139,11 +154,12 @@ await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) =>
     }
   };
 
+  v.seen.ratios = [];
   v.seen.rounds = [];
   for (let round = 0; round < ROUNDS; round++) {
     for (let i = 0; i < ACTIONS; i++) await act();
     // All is closed, and the first scene is back.
-    await v.tab.setViewportSize(SIZE);
+    await setSize(SIZE, 1);
     for (let i = 0; i < 8; i++) await keyboard.press("Escape");
     await v.until("the export to end", async () => {
       const cancel = await page.rect("cancel export");

@@ -22,6 +22,8 @@ fn a_walk_over_the_page_breaks_nothing_and_leaves_nothing_behind() {
         assert_eq!(round["errors"]["count"], 0, "{round}");
         println!("{round}");
     }
+    let ratios: Vec<_> = visit.seen["ratios"].as_array().unwrap().iter().collect();
+    assert!(ratios.windows(2).any(|pair| pair[0] != pair[1]), "one pixel ratio: {ratios:?}");
     let last = rounds.len() - 1;
     for pointer in ["/textures/bytes", "/buffers/bytes", "/memoryBytes"] {
         let [before, after] = [last - 1, last].map(|round| number(round, pointer));
