@@ -23,6 +23,8 @@ const NEARNESS: f64 = 1e-7;
 const RAYS: u32 = 9;
 /// Most steps of one ray; a ray with more creeps along the surface.
 const MAX_STEPS: u32 = 600;
+/// Most steps of one ray of [`nearest_depth`], which views call in every frame of a movement.
+const MAX_TRACE_STEPS: u32 = 128;
 /// Longest step, over the depth, that is longer than the safe step.
 ///
 /// A ray that only takes safe steps creeps through dust.
@@ -41,6 +43,11 @@ const STEPS_AT_ONCE: u32 = 16;
 ///
 /// In distances from the eye to the surface.
 const NEAR_ENOUGH: f64 = 1e6;
+/// Greatest distance from the eye to an anchor, over the estimate at the eye and over the way to the pivot; beyond both, the
+/// eye is the anchor.
+///
+/// In dust all rays may pass the surfaces near the eye.
+const MAX_AWAY: f64 = 100.0;
 /// Rounding of the anchor's position, as a part of its depth: its exact position does not matter.
 const GRAIN: f64 = 1e-12;
 
@@ -162,8 +169,9 @@ impl Search {
                 if rays.step(&self.camera, self.aspect) {
                     return None;
                 }
-                // With no surface in view, the eye is as good an anchor as any point.
-                let way = rays.nearest.unwrap_or(DVec3::ZERO);
+                // With no surface near enough, the eye is as good an anchor as any point.
+                let far = MAX_AWAY * rays.away.max(self.camera.view_unit());
+                let way = rays.nearest.filter(|way| way.length() <= far).unwrap_or(DVec3::ZERO);
                 let anchor = self.camera.position.moved_by(way, GRAIN * way.length());
                 match begun(&self.fractal, &anchor) {
                     Some(steps) => Stage::Anchor(Some(steps)),
@@ -195,6 +203,28 @@ fn begun(fractal: &Fractal, anchor: &PrecisePoint) -> Option<Box<dyn ReferenceSt
 /// Computes the next step of an orbit; returns the orbit after the last.
 fn finished(steps: &mut Option<Box<dyn ReferenceSteps>>) -> Option<Arc<dyn ReferenceOrbit>> {
     if steps.as_mut()?.step() { None } else { Some(steps.take()?.finish()) }
+}
+
+/// The least depth at which a search's rays come to the surface of `field`; none if all miss.
+///
+/// `aspect` is the picture's width over its height, `cone` the hit distance per unit of depth. A ray that creeps along the
+/// surface has come to it.
+pub fn nearest_depth(
+    field: &dyn DistanceField,
+    camera: &Camera,
+    aspect: f64,
+    cone: f64,
+) -> Option<f64> {
+    let mut nearest = None;
+    for ray in 0..RAYS {
+        let ray = camera_ray(camera, &field.origin(), ndc(ray), aspect);
+        let max_depth = nearest.unwrap_or(f64::INFINITY);
+        match field.trace(ray, cone, max_depth, MAX_TRACE_STEPS) {
+            Ok(Some(depth)) | Err(depth) => nearest = Some(depth.min(max_depth)),
+            Ok(None) => {}
+        }
+    }
+    nearest
 }
 
 impl RayMarch {

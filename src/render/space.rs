@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::Region;
 use crate::{
     formula::{ReferenceOrbit, march::COARSEST_FOOTPRINT},
-    fractal::{FractalModel, Search, pixel_cone},
+    fractal::{FractalModel, Search, pixel_cone, search::nearest_depth},
     scene::{PrecisePoint, Scene},
 };
 
@@ -104,11 +104,22 @@ pub fn wants_anchor(model: &FractalModel, scene: &Scene, region: Region) -> bool
     model.has_depth() && plain_footprint(model, scene, region) < COARSEST_FOOTPRINT
 }
 
-/// The footprint of a pixel, from an f64 distance about the scene's origin.
+/// Greatest footprint by the estimate at the eye, over [`COARSEST_FOOTPRINT`], at which some rays are marched too.
 ///
-/// In scene units. Too coarse for most views that want an anchor, but fine enough to detect them.
+/// The estimate may be several times the distance to the surface.
+const MARCHED_BELOW: f64 = 30.0;
+
+/// The footprint of a pixel, in scene units, by f64 distances about the scene's origin.
+///
+/// Too coarse for most views that want an anchor, but fine enough to detect them.
 pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> f64 {
-    model.clear_distance(&scene.camera.position) * cone(scene, region)
+    let cone = cone(scene, region);
+    let by_estimate = model.clear_distance(&scene.camera.position) * cone;
+    if !(COARSEST_FOOTPRINT..MARCHED_BELOW * COARSEST_FOOTPRINT).contains(&by_estimate) {
+        return by_estimate;
+    }
+    let depth = nearest_depth(&**model.whole(), &scene.camera, region.aspect(), cone);
+    depth.map_or(by_estimate, |depth| by_estimate.min(depth * cone))
 }
 
 fn cone(scene: &Scene, region: Region) -> f64 {

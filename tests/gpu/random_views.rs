@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 21] = [
+const HARD: [(&str, Size); 22] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -72,6 +72,8 @@ const HARD: [(&str, Size); 21] = [
     (include_str!("hard_views/near_axis_julia.json"), SIZE),
     // A Julia set of power 16 from inside: rays pass points whose orbits meet the origin, where estimates are 1e7.
     (include_str!("hard_views/hollow.json"), SIZE),
+    // Power 9 at 4e-6: the estimate at the eye is four times the distance, and would let plain f32 draw the view.
+    (include_str!("hard_views/overestimated.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;

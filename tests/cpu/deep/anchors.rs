@@ -57,3 +57,12 @@ fn rays_that_pass_dust_find_it() {
         assert_anchor_in_view(name, &document::from_json(text).expect("a scene"));
     }
 }
+
+/// Power 2 at 2e-5: the rays pass all dust near the eye, and the surface that they come to is 170 times as far.
+#[test]
+fn an_eye_in_dust_that_all_rays_pass_is_its_own_anchor() {
+    let scene = document::from_json(include_str!("dust_passed.json")).expect("a scene");
+    let search = Search::new(&scene.fractal, &scene.camera, ASPECT, None).expect("a search");
+    let way = search.finish().anchor() - &scene.camera.position;
+    assert_eq!(way, DVec3::ZERO);
+}
