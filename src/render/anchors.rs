@@ -11,7 +11,7 @@ use web_time::Instant;
 use super::{
     Region,
     schedule::Pace,
-    space::{RenderSpace, plain_footprint, wants_anchor},
+    space::{RenderSpace, plain_footprint},
 };
 use crate::{
     formula::{ReferenceOrbit, march::COARSEST_FOOTPRINT},
@@ -93,19 +93,21 @@ impl Anchors {
         scene: &Scene,
         region: Region,
     ) -> Option<RenderSpace> {
-        if !wants_anchor(model, scene, region) {
-            if model.has_depth()
-                && plain_footprint(model, scene, region) < AHEAD * COARSEST_FOOTPRINT
-            {
-                self.renew(scene, region);
-            } else {
-                *self = Self::default();
-            }
-            return Some(RenderSpace::plain(model));
+        let footprint = match model.has_depth() {
+            true => plain_footprint(model, scene, region),
+            false => f64::INFINITY,
+        };
+        if footprint < COARSEST_FOOTPRINT {
+            self.renew(scene, region);
+            let found = self.at_hand.as_ref().filter(|found| found.serves(model, scene))?;
+            return Some(RenderSpace::about(model, found.reference.clone(), scene));
         }
-        self.renew(scene, region);
-        let found = self.at_hand.as_ref().filter(|found| found.serves(model, scene))?;
-        Some(RenderSpace::about(model, found.reference.clone(), scene))
+        if footprint < AHEAD * COARSEST_FOOTPRINT {
+            self.renew(scene, region);
+        } else {
+            *self = Self::default();
+        }
+        Some(RenderSpace::plain(model))
     }
 
     /// Whether the view is drawn about an anchor, or may be soon.

@@ -7,6 +7,7 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `piece_size` | how much a refining piece computes |
 //! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
 //! | `interface_frames` | room for frames of the interface |
@@ -24,6 +25,7 @@ mod completion;
 mod cost;
 mod gbuffer_validity;
 mod interface_frames;
+mod piece_size;
 mod plan;
 mod point_selection;
 mod progress;
@@ -36,6 +38,7 @@ use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
 use interface_frames::{FRAME_SHARE, InterfaceFrames};
+use piece_size::{PIECE_MS, PieceSize};
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
 use progress::Progress;
@@ -46,17 +49,6 @@ pub use work::{
     BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, MAX_PIECE_WORKGROUPS, Points,
     Stage, Trace, Work,
 };
-
-/// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
-/// of each dispatch leave much of the GPU idle: short pieces waste time.
-pub const PIECE_MS: f64 = 25.0;
-
-/// Largest part of the motion budget that a refining piece aims at: two of them in flight and a
-/// sparse picture together take little more than a budget.
-const PIECE_SHARE: f64 = 0.5;
-
-/// GPU time that one piece of a still aims at, milliseconds.
-pub const STILL_PIECE_MS: f64 = 60.0;
 
 /// Least time between two displays of a refining picture, seconds.
 const DISPLAY_INTERVAL_SECS: f64 = 0.25;
@@ -90,8 +82,7 @@ pub struct Schedule {
     adaptation: Adaptation,
     in_flight: InFlight,
     interface_frames: InterfaceFrames,
-    /// Number of refining pieces so far, modulo 2³².
-    pieces: u32,
+    piece_size: PieceSize,
     cost: Cost,
 }
 
@@ -114,7 +105,7 @@ impl Schedule {
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
             interface_frames: InterfaceFrames::default(),
-            pieces: 0,
+            piece_size: PieceSize::default(),
             cost: Cost::new(plan),
         }
     }
@@ -450,7 +441,13 @@ impl Schedule {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
             Phase::Opening | Phase::Jump => MAX_PIECE_WORKGROUPS,
-            Phase::Refining => self.piece_workgroups(job, kept).min(MAX_PIECE_WORKGROUPS),
+            Phase::Refining => {
+                let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
+                let are_merged = self.in_flight.are_merged();
+                self.piece_size
+                    .next(aim_ms, &self.cost, (job, kept), are_merged)
+                    .min(MAX_PIECE_WORKGROUPS)
+            }
         };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;
@@ -462,21 +459,6 @@ impl Schedule {
         }
         let Job { from, lights } = job;
         Trace { points, from, lights, first_workgroup, workgroups, kept }
-    }
-
-    /// Workgroups of a refining piece: every second or third one is half as large as the others.
-    fn piece_workgroups(&mut self, job: Job, kept: KeptPixels) -> u32 {
-        let aim_ms = match self.pace {
-            Pace::Still => STILL_PIECE_MS,
-            Pace::Interactive => PIECE_MS.min(PIECE_SHARE * self.budget_ms),
-        };
-        let computed = f64::from(1.0 - kept.share).max(1e-3);
-        let largest = (f64::from(self.cost.piece_workgroups(aim_ms, job)) / computed) as u32;
-        // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
-        // completions are of two pieces, so that only every third piece makes pairs of two sizes.
-        self.pieces = self.pieces.wrapping_add(1);
-        let period = if self.in_flight.are_merged() { 3 } else { 2 };
-        if self.pieces.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
     }
 
     /// The state of the schedule at `now_secs`.
