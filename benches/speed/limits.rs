@@ -27,10 +27,14 @@ pub enum Measure {
     Bounce,
     /// Percentage of pixels whose rays pass the surface.
     Overstepped,
+    /// Percentage of pieces of work that take over two motion budgets.
+    OverTwoBudgets,
+    /// The time of the longest piece of work, milliseconds.
+    LongestPiece,
 }
 
 impl Measure {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 11] = [
         Self::Ratio,
         Self::Cost,
         Self::Estimates,
@@ -40,6 +44,8 @@ impl Measure {
         Self::Compilation,
         Self::Bounce,
         Self::Overstepped,
+        Self::OverTwoBudgets,
+        Self::LongestPiece,
     ];
 
     fn name(self) -> &'static str {
@@ -53,6 +59,8 @@ impl Measure {
             Self::Compilation => "compilation",
             Self::Bounce => "bounce",
             Self::Overstepped => "overstepped",
+            Self::OverTwoBudgets => "over-two-budgets",
+            Self::LongestPiece => "longest-piece",
         }
     }
 
@@ -68,6 +76,9 @@ impl Measure {
             // Both sides run on one machine in turn.
             Self::TextEstimate | Self::TextGradient | Self::Compilation => value * 1.3,
             Self::Overstepped => value + 0.1,
+            // What the program promises of any scene, whatever was measured.
+            Self::OverTwoBudgets => 1.0,
+            Self::LongestPiece => 250.0,
             Self::Estimates | Self::Steps | Self::Bounce => value * 1.01,
         }
     }

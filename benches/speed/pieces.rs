@@ -187,6 +187,23 @@ fn row(name: &'static str, scenes: usize, pieces: Vec<Piece>) -> Row {
     }
 }
 
+/// What the benchmark limits, over all sets of scenes.
+#[derive(Clone, Copy, Debug)]
+pub struct Total {
+    /// Part of the pieces that took over two budgets, percent.
+    pub over: f64,
+    /// The longest piece, milliseconds.
+    pub longest_ms: f64,
+}
+
+/// The total of all rows; none without pieces.
+pub fn total(rows: &[Row]) -> Option<Total> {
+    let pieces: usize = rows.iter().map(|row| row.pieces).sum();
+    let over: f64 = rows.iter().map(|row| row.over * row.pieces as f64).sum();
+    let longest_ms = rows.iter().map(|row| row.longest_ms).fold(0.0, f64::max);
+    (pieces > 0).then(|| Total { over: over / pieces as f64, longest_ms })
+}
+
 /// Prints the table.
 pub fn print(rows: &[Row]) {
     println!("\npieces of work: GPU time in motion budgets");
@@ -202,5 +219,8 @@ pub fn print(rows: &[Row]) {
             "  {name:<10}{scenes:>7}{pieces:>8}{median:>8.2}{most:>8.2}{over:>7.1} %{longest_ms:>12.1}{display_ms:>12.1}"
         );
         println!("            the longest: {longest}");
+    }
+    if let Some(Total { over, longest_ms }) = total(rows) {
+        println!("  of all {over:.2} % over 2, the longest {longest_ms:.1} ms");
     }
 }

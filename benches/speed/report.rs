@@ -93,6 +93,10 @@ impl Report {
                 add(Measure::Overstepped, row.formula, 100.0 * part);
             }
         }
+        if let Some(total) = pieces::total(&self.pieces) {
+            add(Measure::OverTwoBudgets, pieces::NAME, total.over);
+            add(Measure::LongestPiece, pieces::NAME, total.longest_ms);
+        }
         all
     }
 
