@@ -4,6 +4,8 @@
 //! the eye's orbit lasts as long as the orbits of points as far from it as the surface is. Only the
 //! orbits of the eye and of the found point take many digits. The search runs in small steps, so
 //! that a frame can run as many as fit its time.
+//!
+//! [`nearest_depth`] marches the same rays to find how near the surface in view is.
 
 use std::sync::Arc;
 

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 use mandelight::{
-    formula::march::DEEP_FOOTPRINT,
-    fractal::{Search, ndc_of},
+    formula::march::{COARSEST_FOOTPRINT, DEEP_FOOTPRINT},
+    fractal::{FractalModel, Search, ndc_of, pixel_cone},
+    render::{Region, space::wants_anchor},
     scene::{Scene, document},
 };
 use mandelight_test_support::deep::views::ANCHORS;
@@ -65,4 +66,16 @@ fn an_eye_in_dust_that_all_rays_pass_is_its_own_anchor() {
     let search = Search::new(&scene.fractal, &scene.camera, ASPECT, None).expect("a search");
     let way = search.finish().anchor() - &scene.camera.position;
     assert_eq!(way, DVec3::ZERO);
+}
+
+/// Power 9 at 4e-6: the estimate at the eye is four times the distance.
+#[test]
+fn a_view_whose_estimate_at_the_eye_is_too_large_wants_an_anchor() {
+    let text = include_str!("../../gpu/hard_views/overestimated.json");
+    let scene = document::from_json(text).expect("a scene");
+    let model = FractalModel::new(&scene.fractal);
+    let region = Region::whole([36, 24]);
+    let cone = pixel_cone(&scene.camera, region.aspect(), 24.0);
+    assert!(model.clear_distance(&scene.camera.position) * cone > COARSEST_FOOTPRINT);
+    assert!(wants_anchor(&model, &scene, region));
 }
