@@ -187,21 +187,21 @@ fn row(name: &'static str, scenes: usize, pieces: Vec<Piece>) -> Row {
     }
 }
 
-/// What the benchmark limits, over all sets of scenes.
+/// Share of long pieces, and the longest piece, over all sets of scenes.
 #[derive(Clone, Copy, Debug)]
-pub struct Total {
+pub struct Summary {
     /// Part of the pieces that took over two budgets, percent.
     pub over: f64,
     /// The longest piece, milliseconds.
     pub longest_ms: f64,
 }
 
-/// The total of all rows; none without pieces.
-pub fn total(rows: &[Row]) -> Option<Total> {
+/// The summary of all rows; none without pieces.
+pub fn summary(rows: &[Row]) -> Option<Summary> {
     let pieces: usize = rows.iter().map(|row| row.pieces).sum();
     let over: f64 = rows.iter().map(|row| row.over * row.pieces as f64).sum();
     let longest_ms = rows.iter().map(|row| row.longest_ms).fold(0.0, f64::max);
-    (pieces > 0).then(|| Total { over: over / pieces as f64, longest_ms })
+    (pieces > 0).then(|| Summary { over: over / pieces as f64, longest_ms })
 }
 
 /// Prints the table.
@@ -220,7 +220,7 @@ pub fn print(rows: &[Row]) {
         );
         println!("            the longest: {longest}");
     }
-    if let Some(Total { over, longest_ms }) = total(rows) {
-        println!("  of all {over:.2} % over 2, the longest {longest_ms:.1} ms");
+    if let Some(Summary { over, longest_ms }) = summary(rows) {
+        println!("  all sets: {over:.2} % over two budgets, the longest {longest_ms:.1} ms");
     }
 }

@@ -93,9 +93,9 @@ impl Report {
                 add(Measure::Overstepped, row.formula, 100.0 * part);
             }
         }
-        if let Some(total) = pieces::total(&self.pieces) {
-            add(Measure::OverTwoBudgets, pieces::NAME, total.over);
-            add(Measure::LongestPiece, pieces::NAME, total.longest_ms);
+        if let Some(summary) = pieces::summary(&self.pieces) {
+            add(Measure::OverTwoBudgets, pieces::NAME, summary.over);
+            add(Measure::LongestPiece, pieces::NAME, summary.longest_ms);
         }
         all
     }

@@ -1,11 +1,11 @@
-//! Finds the anchor of a view: a point of the visible surface.
+//! Finds the anchor of a view: a point of the visible surface, or one in front of the eye if no surface is near.
 //!
 //! The search marches rays in f64 about an older anchor that is near enough, or about the eye itself:
 //! the eye's orbit lasts as long as the orbits of points as far from it as the surface is. Only the
 //! orbits of the eye and of the found point take many digits. The search runs in small steps, so
 //! that a frame can run as many as fit its time.
 //!
-//! [`nearest_depth`] marches the same rays to find how near the surface in view is.
+//! [`nearest_depth`] sphere-traces rays in the same directions, without the search for dust beside them.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ const NEARNESS: f64 = 1e-7;
 const RAYS: u32 = 9;
 /// Most steps of one ray; a ray with more creeps along the surface.
 const MAX_STEPS: u32 = 600;
-/// Most steps of one ray of [`nearest_depth`], which views call in every frame of a movement.
+/// Most steps of one ray of [`nearest_depth`], which takes no steps between frames.
 const MAX_TRACE_STEPS: u32 = 128;
 /// Longest step, over the depth, that is longer than the safe step.
 ///
@@ -45,11 +45,10 @@ const STEPS_AT_ONCE: u32 = 16;
 ///
 /// In distances from the eye to the surface.
 const NEAR_ENOUGH: f64 = 1e6;
-/// Greatest distance from the eye to an anchor, over the estimate at the eye and over the way to the pivot; beyond both, the
-/// eye is the anchor.
+/// Depth of the farthest usable hit, over the larger of the estimate at the eye and the distance to the pivot.
 ///
-/// In dust all rays may pass the surfaces near the eye.
-const MAX_AWAY: f64 = 100.0;
+/// If the nearest hit is farther, all rays have passed dust near the eye.
+const MAX_HIT_DEPTH: f64 = 100.0;
 /// Rounding of the anchor's position, as a part of its depth: its exact position does not matter.
 const GRAIN: f64 = 1e-12;
 
@@ -171,9 +170,10 @@ impl Search {
                 if rays.step(&self.camera, self.aspect) {
                     return None;
                 }
-                // With no surface near enough, the eye is as good an anchor as any point.
-                let far = MAX_AWAY * rays.away.max(self.camera.view_unit());
-                let way = rays.nearest.filter(|way| way.length() <= far).unwrap_or(DVec3::ZERO);
+                let far = MAX_HIT_DEPTH * rays.away.max(self.camera.view_unit());
+                let hit = rays.nearest.filter(|way| way.length() <= far);
+                // With no surface near enough, a point in front of the eye is as good an anchor as any.
+                let way = hit.unwrap_or(rays.away * self.camera.forward());
                 let anchor = self.camera.position.moved_by(way, GRAIN * way.length());
                 match begun(&self.fractal, &anchor) {
                     Some(steps) => Stage::Anchor(Some(steps)),
@@ -207,26 +207,24 @@ fn finished(steps: &mut Option<Box<dyn ReferenceSteps>>) -> Option<Arc<dyn Refer
     if steps.as_mut()?.step() { None } else { Some(steps.take()?.finish()) }
 }
 
-/// The least depth at which a search's rays come to the surface of `field`; none if all miss.
+/// Depth of the nearest hit of a search's nine rays, at most `max_depth`.
 ///
-/// `aspect` is the picture's width over its height, `cone` the hit distance per unit of depth. A ray that creeps along the
-/// surface has come to it.
+/// `aspect` is the picture's width over its height, `cone` the hit distance per unit of depth. A ray that runs out of
+/// steps counts as a hit where it stops.
 pub fn nearest_depth(
     field: &dyn DistanceField,
     camera: &Camera,
     aspect: f64,
     cone: f64,
-) -> Option<f64> {
-    let mut nearest = None;
-    for ray in 0..RAYS {
+    max_depth: f64,
+) -> f64 {
+    (0..RAYS).fold(max_depth, |nearest, ray| {
         let ray = camera_ray(camera, &field.origin(), ndc(ray), aspect);
-        let max_depth = nearest.unwrap_or(f64::INFINITY);
-        match field.trace(ray, cone, max_depth, MAX_TRACE_STEPS) {
-            Ok(Some(depth)) | Err(depth) => nearest = Some(depth.min(max_depth)),
-            Ok(None) => {}
+        match field.trace(ray, cone, nearest, MAX_TRACE_STEPS) {
+            Ok(Some(depth)) | Err(depth) => depth.min(nearest),
+            Ok(None) => nearest,
         }
-    }
-    nearest
+    })
 }
 
 impl RayMarch {

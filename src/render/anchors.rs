@@ -93,10 +93,9 @@ impl Anchors {
         scene: &Scene,
         region: Region,
     ) -> Option<RenderSpace> {
-        let footprint = match model.has_depth() {
-            true => plain_footprint(model, scene, region),
-            false => f64::INFINITY,
-        };
+        // Fractals without depth never need an anchor.
+        let footprint =
+            if model.has_depth() { plain_footprint(model, scene, region) } else { f64::INFINITY };
         if footprint < COARSEST_FOOTPRINT {
             self.renew(scene, region);
             let found = self.at_hand.as_ref().filter(|found| found.serves(model, scene))?;

@@ -38,7 +38,7 @@ use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
 use interface_frames::{FRAME_SHARE, InterfaceFrames};
-use piece_size::{PIECE_MS, PieceSize};
+use piece_size::{PIECE_MS, PieceSizes};
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
 use progress::Progress;
@@ -82,7 +82,7 @@ pub struct Schedule {
     adaptation: Adaptation,
     in_flight: InFlight,
     interface_frames: InterfaceFrames,
-    piece_size: PieceSize,
+    piece_sizes: PieceSizes,
     cost: Cost,
 }
 
@@ -105,7 +105,7 @@ impl Schedule {
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
             interface_frames: InterfaceFrames::default(),
-            piece_size: PieceSize::default(),
+            piece_sizes: PieceSizes::default(),
             cost: Cost::new(plan),
         }
     }
@@ -444,9 +444,7 @@ impl Schedule {
             Phase::Refining => {
                 let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
                 let are_merged = self.in_flight.are_merged();
-                self.piece_size
-                    .next(aim_ms, &self.cost, (job, kept), are_merged)
-                    .min(MAX_PIECE_WORKGROUPS)
+                self.piece_sizes.next(aim_ms, &self.cost, job, kept, are_merged)
             }
         };
         let workgroups = wanted.min(total - first_workgroup);

@@ -36,7 +36,7 @@ impl RenderSpace {
     /// The render space about the anchor of `reference`, for `scene`'s camera.
     pub fn about(model: &FractalModel, reference: Arc<dyn ReferenceOrbit>, scene: &Scene) -> Self {
         let way = (&scene.camera.position - reference.anchor()).length();
-        // With no surface in view, the eye itself is the anchor; the view unit then sets the scale.
+        // An eye inside the set is its own anchor; the view unit then sets the scale.
         let scale = if way > 0.0 { way } else { scene.camera.view_unit() };
         Self { model: model.clone(), anchored: Some(Anchored { reference, scale }) }
     }
@@ -93,7 +93,9 @@ impl RenderSpace {
         }
     }
 
-    /// The radius of a pixel's cone at the surface nearest the eye, in scene units.
+    /// The radius of a pixel's cone at the surface nearest the eye, in scene units, by the estimate at the eye.
+    ///
+    /// The estimate may be several times too large, which costs about one iteration; [`plain_footprint`] marches rays too.
     pub fn footprint(&self, scene: &Scene, region: Region) -> f64 {
         self.nearest(scene) * self.scale() * cone(scene, region)
     }
@@ -104,22 +106,21 @@ pub fn wants_anchor(model: &FractalModel, scene: &Scene, region: Region) -> bool
     model.has_depth() && plain_footprint(model, scene, region) < COARSEST_FOOTPRINT
 }
 
-/// Greatest footprint by the estimate at the eye, over [`COARSEST_FOOTPRINT`], at which some rays are marched too.
-///
-/// The estimate may be several times the distance to the surface.
-const MARCHED_BELOW: f64 = 30.0;
+/// Largest overestimate of the distance at the eye that rays correct: a footprint of up to so many times
+/// [`COARSEST_FOOTPRINT`] by that estimate is checked by rays, whose safe steps are shorter than estimates.
+const MAX_OVERESTIMATE: f64 = 30.0;
 
-/// The footprint of a pixel, in scene units, by f64 distances about the scene's origin.
+/// The footprint of a pixel at the nearest surface, in scene units, in f64 about the scene's origin.
 ///
-/// Too coarse for most views that want an anchor, but fine enough to detect them.
+/// f64 is too coarse to draw most views that want an anchor, but fine enough to detect them.
 pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> f64 {
     let cone = cone(scene, region);
     let by_estimate = model.clear_distance(&scene.camera.position) * cone;
-    if !(COARSEST_FOOTPRINT..MARCHED_BELOW * COARSEST_FOOTPRINT).contains(&by_estimate) {
+    if !(COARSEST_FOOTPRINT..MAX_OVERESTIMATE * COARSEST_FOOTPRINT).contains(&by_estimate) {
         return by_estimate;
     }
-    let depth = nearest_depth(&**model.whole(), &scene.camera, region.aspect(), cone);
-    depth.map_or(by_estimate, |depth| by_estimate.min(depth * cone))
+    let (field, camera) = (&**model.whole(), &scene.camera);
+    cone * nearest_depth(field, camera, region.aspect(), cone, by_estimate / cone)
 }
 
 fn cone(scene: &Scene, region: Region) -> f64 {

@@ -72,7 +72,7 @@ const HARD: [(&str, Size); 22] = [
     (include_str!("hard_views/near_axis_julia.json"), SIZE),
     // A Julia set of power 16 from inside: rays pass points whose orbits meet the origin, where estimates are 1e7.
     (include_str!("hard_views/hollow.json"), SIZE),
-    // Power 9 at 4e-6: the estimate at the eye is four times the distance, and would let plain f32 draw the view.
+    // Power 9 at 2e-6: the estimate at the eye is 8.5 times the distance, and would let plain f32 draw the view.
     (include_str!("hard_views/overestimated.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.

@@ -1,11 +1,11 @@
 //! How much a refining piece computes.
 //!
-//! In: the time that a piece aims at, and what rays cost. Out: the piece's workgroups.
+//! In: pace, motion budget and what rays cost. Out: the workgroups of the next piece.
 
 use super::{
     cost::Cost,
     types::Pace,
-    work::{Job, KeptPixels},
+    work::{Job, KeptPixels, MAX_PIECE_WORKGROUPS},
 };
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
@@ -29,28 +29,31 @@ pub fn aim_ms(pace: Pace, budget_ms: f64) -> f64 {
 
 /// Sizes of successive refining pieces.
 #[derive(Clone, Debug, Default)]
-pub struct PieceSize {
+pub struct PieceSizes {
     /// Number of pieces so far, modulo 2³².
-    pieces: u32,
+    issued: u32,
 }
 
-impl PieceSize {
-    /// Workgroups of the next piece: every second or third one is half as large as the others.
+impl PieceSizes {
+    /// Workgroups of the next piece, at most [`MAX_PIECE_WORKGROUPS`]: every second piece is half as large as the others,
+    /// every third one if completions have arrived together (`are_merged`).
     ///
-    /// `kept`: pixels that take no time. `are_merged`: completions have arrived together.
+    /// `kept`: pixels that take no time.
     pub fn next(
         &mut self,
         aim_ms: f64,
         cost: &Cost,
-        (job, kept): (Job, KeptPixels),
+        job: Job,
+        kept: KeptPixels,
         are_merged: bool,
     ) -> u32 {
         let computed = f64::from(1.0 - kept.share).max(1e-3);
-        let largest = (f64::from(cost.piece_workgroups(aim_ms, job)) / computed) as u32;
+        let wanted = (f64::from(cost.piece_workgroups(aim_ms, job)) / computed) as u32;
+        let largest = wanted.min(MAX_PIECE_WORKGROUPS);
         // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
         // completions are of two pieces, so that only every third piece makes pairs of two sizes.
-        self.pieces = self.pieces.wrapping_add(1);
+        self.issued = self.issued.wrapping_add(1);
         let period = if are_merged { 3 } else { 2 };
-        if self.pieces.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
+        if self.issued.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
     }
 }

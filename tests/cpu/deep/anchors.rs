@@ -59,16 +59,17 @@ fn rays_that_pass_dust_find_it() {
     }
 }
 
-/// Power 2 at 2e-5: the rays pass all dust near the eye, and the surface that they come to is 170 times as far.
+/// Power 2 at 2e-5: the rays pass all dust near the eye, and their nearest hit is 176 times as far away as the pivot.
 #[test]
-fn an_eye_in_dust_that_all_rays_pass_is_its_own_anchor() {
+fn an_anchor_in_dust_that_all_rays_pass_is_near_the_eye() {
     let scene = document::from_json(include_str!("dust_passed.json")).expect("a scene");
     let search = Search::new(&scene.fractal, &scene.camera, ASPECT, None).expect("a search");
     let way = search.finish().anchor() - &scene.camera.position;
-    assert_eq!(way, DVec3::ZERO);
+    let far = way.length() / scene.camera.view_unit();
+    assert!((0.1..FARTHEST).contains(&far), "the anchor is {far} away");
 }
 
-/// Power 9 at 4e-6: the estimate at the eye is four times the distance.
+/// Power 9, 2.1e-6 from the pivot: the estimate at the eye is 8.5 times the depth of the nearest hit.
 #[test]
 fn a_view_whose_estimate_at_the_eye_is_too_large_wants_an_anchor() {
     let text = include_str!("../../gpu/hard_views/overestimated.json");
