@@ -93,15 +93,14 @@ impl Anchors {
         scene: &Scene,
         region: Region,
     ) -> Option<RenderSpace> {
-        // Fractals without depth never need an anchor.
-        let footprint =
-            if model.has_depth() { plain_footprint(model, scene, region) } else { f64::INFINITY };
-        if footprint < COARSEST_FOOTPRINT {
+        let footprint = plain_footprint(model, scene, region);
+        let is_below = |limit| footprint.is_some_and(|footprint| footprint < limit);
+        if is_below(COARSEST_FOOTPRINT) {
             self.renew(scene, region);
             let found = self.at_hand.as_ref().filter(|found| found.serves(model, scene))?;
             return Some(RenderSpace::about(model, found.reference.clone(), scene));
         }
-        if footprint < AHEAD * COARSEST_FOOTPRINT {
+        if is_below(AHEAD * COARSEST_FOOTPRINT) {
             self.renew(scene, region);
         } else {
             *self = Self::default();

@@ -1,7 +1,7 @@
 //! Render space: the floating origin and the unit of a view's coordinates.
 //!
-//! While f32 is fine enough, origin and unit are the scene's own. In deeper views the origin is an anchor on
-//! the surface and the unit the distance from the eye to the anchor.
+//! While f32 is fine enough, origin and unit are the scene's own. In deeper views the origin is an anchor, on
+//! the surface where one is near, and the unit the distance from the eye to the anchor.
 
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ impl RenderSpace {
 
     /// The radius of a pixel's cone at the surface nearest the eye, in scene units, by the estimate at the eye.
     ///
-    /// The estimate may be several times too large, which costs about one iteration; [`plain_footprint`] marches rays too.
+    /// The estimate may be several times too large; [`plain_footprint`] marches rays too.
     pub fn footprint(&self, scene: &Scene, region: Region) -> f64 {
         self.nearest(scene) * self.scale() * cone(scene, region)
     }
@@ -103,7 +103,7 @@ impl RenderSpace {
 
 /// Whether pixels are too fine for plain f32, and an anchor can help.
 pub fn wants_anchor(model: &FractalModel, scene: &Scene, region: Region) -> bool {
-    model.has_depth() && plain_footprint(model, scene, region) < COARSEST_FOOTPRINT
+    plain_footprint(model, scene, region).is_some_and(|footprint| footprint < COARSEST_FOOTPRINT)
 }
 
 /// Largest overestimate of the distance at the eye that rays correct: a footprint of up to so many times
@@ -112,15 +112,19 @@ const MAX_OVERESTIMATE: f64 = 30.0;
 
 /// The footprint of a pixel at the nearest surface, in scene units, in f64 about the scene's origin.
 ///
-/// f64 is too coarse to draw most views that want an anchor, but fine enough to detect them.
-pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> f64 {
+/// None for fractals without depth, which never have an anchor. f64 is too coarse to draw most views that want an
+/// anchor, but fine enough to detect them.
+pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> Option<f64> {
+    if !model.has_depth() {
+        return None;
+    }
     let cone = cone(scene, region);
     let by_estimate = model.clear_distance(&scene.camera.position) * cone;
     if !(COARSEST_FOOTPRINT..MAX_OVERESTIMATE * COARSEST_FOOTPRINT).contains(&by_estimate) {
-        return by_estimate;
+        return Some(by_estimate);
     }
     let (field, camera) = (&**model.whole(), &scene.camera);
-    cone * nearest_depth(field, camera, region.aspect(), cone, by_estimate / cone)
+    Some(cone * nearest_depth(field, camera, region.aspect(), cone, by_estimate / cone))
 }
 
 fn cone(scene: &Scene, region: Region) -> f64 {
