@@ -191,9 +191,8 @@ impl Cost {
     pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
-        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.max_rays);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_sample;
-        (rays / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
+        (rate.rays(aim_ms) / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
     }
 
     /// Whether an opening fits a budget, with its display and the work in flight.

@@ -29,6 +29,14 @@ const OPENINGS_QUANTILE: f64 = 0.75;
 /// How many times as many rays as before a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
+/// How many times as many rays as one of the last short pieces another may have if the fixed time alone is longer than wanted.
+///
+/// It may be the time of one workgroup: those that run side by side take no longer together, however expensive they are.
+const CAREFUL_GROWTH: f64 = 2.0;
+
+/// A piece that took at most so many times the fixed time is short.
+const SHORT: f64 = 2.0;
+
 /// Largest part of a piece's time that counts as fixed.
 ///
 /// Below 1, so that pieces grow step by step.
@@ -68,17 +76,26 @@ pub struct Rate {
     pub fixed_ms: f64,
     /// Time that each ray adds, milliseconds.
     pub ray_ms: f64,
+    /// Most rays of a short piece.
+    short_rays: f64,
     /// Most rays for which the estimate holds.
     pub max_rays: f64,
 }
 
 impl Rate {
     /// The rate before anything is measured.
-    pub const ASSUMED: Self = Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, max_rays: FIRST_RAYS };
+    pub const ASSUMED: Self =
+        Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, short_rays: FIRST_RAYS, max_rays: FIRST_RAYS };
 
     /// Estimated time of a piece of so many rays, milliseconds.
     pub fn expected_ms(&self, rays: f64) -> f64 {
         self.fixed_ms + self.ray_ms * rays
+    }
+
+    /// Rays of a piece that takes `aim_ms`, or twice the fixed time if that is longer than `aim_ms`.
+    pub fn rays(&self, aim_ms: f64) -> f64 {
+        let rays = (aim_ms.max(self.fixed_ms) / self.ray_ms).min(self.max_rays);
+        if self.fixed_ms > aim_ms { rays.min(CAREFUL_GROWTH * self.short_rays) } else { rays }
     }
 
     /// The same rate with rays that cost `factor` times as much.
@@ -88,7 +105,7 @@ impl Rate {
 
     /// The same rate for a kind of work that has not been tried.
     pub fn untried(self) -> Self {
-        Self { max_rays: FIRST_RAYS, ..self }
+        Self { short_rays: FIRST_RAYS, max_rays: FIRST_RAYS, ..self }
     }
 }
 
@@ -139,7 +156,11 @@ impl CostHistory {
     /// The rate of the refining pieces, which may grow from what was tried in this view.
     fn line(&self) -> Option<Rate> {
         let (fixed_ms, ray_ms) = line(&self.pieces)?;
-        Some(Rate { fixed_ms, ray_ms, max_rays: GROWTH * self.most_rays })
+        let rays = |piece: &Measurement| piece.rays;
+        let fewest_rays = self.pieces.iter().map(rays).fold(f64::INFINITY, f64::min);
+        let short = self.pieces.iter().filter(|piece| piece.ms <= SHORT * fixed_ms);
+        let short_rays = short.map(rays).fold(fewest_rays, f64::max);
+        Some(Rate { fixed_ms, ray_ms, short_rays, max_rays: GROWTH * self.most_rays })
     }
 
     /// Forgets most of what other views cost, and all of it where the opening shows a much more expensive view: pieces
@@ -174,7 +195,12 @@ impl CostHistory {
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
         let ray_ms = |opening: &Measurement| opening.rays_ms(fixed_ms) / opening.rays;
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
-            .map(|ray_ms| Rate { fixed_ms, ray_ms, max_rays: GROWTH * opening.rays });
+            .map(|ray_ms| Rate {
+                fixed_ms,
+                ray_ms,
+                short_rays: opening.rays,
+                max_rays: GROWTH * opening.rays,
+            });
     }
 }
 

@@ -4,6 +4,7 @@ use super::{types::MAX_IN_FLIGHT, *};
 use crate::render::integrator::{DIRECT, PATH};
 
 mod arithmetic;
+mod cores;
 mod hand;
 mod jumps;
 mod light;
