@@ -185,9 +185,7 @@ impl Cost {
         })
     }
 
-    /// Workgroups of a refining piece that takes `aim_ms`.
-    ///
-    /// Of one that takes the fixed cost if that is longer. The piece is not much larger than any before.
+    /// Workgroups of the next refining piece, whose rays are to take `aim_ms` ([`Rate::rays`]).
     pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);

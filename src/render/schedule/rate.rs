@@ -26,16 +26,17 @@ const OPENINGS: usize = 9;
 /// Part of those openings that cost no more than the estimate: few pictures are late.
 const OPENINGS_QUANTILE: f64 = 0.75;
 
-/// How many times as many rays as before a piece may have: two lattice levels and a margin.
+/// How many times as many rays as before in this view a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
-/// How many times as many rays as one of the last short pieces another may have if the fixed time alone is longer than wanted.
+/// How many times as many rays as the largest of the last short pieces a piece may have if the fixed time alone is too long.
 ///
-/// It may be the time of one workgroup: those that run side by side take no longer together, however expensive they are.
+/// What seems fixed may be the time of one workgroup: several that run side by side take as long as one, so that rays
+/// seem to cost nothing until there are too many of them.
 const CAREFUL_GROWTH: f64 = 2.0;
 
-/// A piece that took at most so many times the fixed time is short.
-const SHORT: f64 = 2.0;
+/// The longest short piece, in fixed times.
+const SHORT: f64 = 1.5;
 
 /// Largest part of a piece's time that counts as fixed.
 ///
@@ -76,26 +77,27 @@ pub struct Rate {
     pub fixed_ms: f64,
     /// Time that each ray adds, milliseconds.
     pub ray_ms: f64,
-    /// Most rays of a short piece.
-    short_rays: f64,
     /// Most rays for which the estimate holds.
     pub max_rays: f64,
+    /// Most rays of a piece whose fixed time alone is too long.
+    careful_rays: f64,
 }
 
 impl Rate {
     /// The rate before anything is measured.
     pub const ASSUMED: Self =
-        Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, short_rays: FIRST_RAYS, max_rays: FIRST_RAYS };
+        Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, max_rays: FIRST_RAYS, careful_rays: FIRST_RAYS };
 
     /// Estimated time of a piece of so many rays, milliseconds.
     pub fn expected_ms(&self, rays: f64) -> f64 {
         self.fixed_ms + self.ray_ms * rays
     }
 
-    /// Rays of a piece that takes `aim_ms`, or twice the fixed time if that is longer than `aim_ms`.
+    /// Most rays of the next piece: they take `aim_ms`, or as long as the fixed time where that is longer, beside the fixed
+    /// time. Sizes that were measured limit it.
     pub fn rays(&self, aim_ms: f64) -> f64 {
-        let rays = (aim_ms.max(self.fixed_ms) / self.ray_ms).min(self.max_rays);
-        if self.fixed_ms > aim_ms { rays.min(CAREFUL_GROWTH * self.short_rays) } else { rays }
+        let limit = if self.fixed_ms > aim_ms { self.careful_rays } else { self.max_rays };
+        (aim_ms.max(self.fixed_ms) / self.ray_ms).min(limit)
     }
 
     /// The same rate with rays that cost `factor` times as much.
@@ -105,7 +107,7 @@ impl Rate {
 
     /// The same rate for a kind of work that has not been tried.
     pub fn untried(self) -> Self {
-        Self { short_rays: FIRST_RAYS, max_rays: FIRST_RAYS, ..self }
+        Self { max_rays: FIRST_RAYS, careful_rays: FIRST_RAYS, ..self }
     }
 }
 
@@ -156,11 +158,12 @@ impl CostHistory {
     /// The rate of the refining pieces, which may grow from what was tried in this view.
     fn line(&self) -> Option<Rate> {
         let (fixed_ms, ray_ms) = line(&self.pieces)?;
-        let rays = |piece: &Measurement| piece.rays;
-        let fewest_rays = self.pieces.iter().map(rays).fold(f64::INFINITY, f64::min);
         let short = self.pieces.iter().filter(|piece| piece.ms <= SHORT * fixed_ms);
-        let short_rays = short.map(rays).fold(fewest_rays, f64::max);
-        Some(Rate { fixed_ms, ray_ms, short_rays, max_rays: GROWTH * self.most_rays })
+        // Without a short piece rays cost enough for the estimate to hold.
+        let short_rays = short.map(|piece| piece.rays).reduce(f64::max).unwrap_or(self.most_rays);
+        let max_rays = GROWTH * self.most_rays;
+        let careful_rays = max_rays.min(CAREFUL_GROWTH * short_rays);
+        Some(Rate { fixed_ms, ray_ms, max_rays, careful_rays })
     }
 
     /// Forgets most of what other views cost, and all of it where the opening shows a much more expensive view: pieces
@@ -194,12 +197,14 @@ impl CostHistory {
         // Openings are too few, and of too many views, to separate their own fixed cost.
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
         let ray_ms = |opening: &Measurement| opening.rays_ms(fixed_ms) / opening.rays;
-        self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
-            .map(|ray_ms| Rate {
-                fixed_ms,
-                ray_ms,
-                short_rays: opening.rays,
-                max_rays: GROWTH * opening.rays,
+        self.opening =
+            quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect()).map(|ray_ms| {
+                Rate {
+                    fixed_ms,
+                    ray_ms,
+                    max_rays: GROWTH * opening.rays,
+                    careful_rays: CAREFUL_GROWTH * opening.rays,
+                }
             });
     }
 }
@@ -291,6 +296,24 @@ mod tests {
             assert!(ray_ms(&opened, phase) < 0.002, "{opened:?}");
             assert!(ray_ms(&alike, phase) < 0.002, "{alike:?}");
         }
+    }
+
+    /// Twice as many rays as the largest short piece where all of the time seems fixed and is too long; five times as many as
+    /// the largest piece elsewhere.
+    #[test]
+    fn pieces_of_equal_times_grow_carefully_where_they_are_too_long() {
+        let mut history = CostHistory::default();
+        for index in 0..MANY_PIECES {
+            history.learn(Phase::Refining, if index % 2 == 0 { 200.0 } else { 100.0 }, 50.0);
+        }
+        let rays = |history: &CostHistory, aim_ms| {
+            history.rate(Phase::Refining).expect("pieces").rays(aim_ms)
+        };
+        assert_eq!((rays(&history, 8.0), rays(&history, 60.0)), (400.0, 1000.0));
+        history.learn(Phase::Refining, 400.0, 150.0);
+        assert_eq!(rays(&history, 8.0), 400.0, "a long piece is no base");
+        history.learn(Phase::Refining, 400.0, 60.0);
+        assert_eq!(rays(&history, 8.0), 800.0);
     }
 
     #[test]
