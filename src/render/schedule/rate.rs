@@ -29,10 +29,10 @@ const OPENINGS_QUANTILE: f64 = 0.75;
 /// How many times as many rays as before in this view a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
-/// How many times as many rays as the largest of the last short pieces a piece may have if the fixed time alone is too long.
+/// Growth from the largest of the last short pieces, where the fixed time alone is longer than a piece should be.
 ///
 /// What seems fixed may be the time of one workgroup: several that run side by side take as long as one, so that rays
-/// seem to cost nothing until there are too many of them.
+/// seem to cost nothing until there are more workgroups than that.
 const CAREFUL_GROWTH: f64 = 2.0;
 
 /// The longest short piece, in fixed times.
@@ -79,7 +79,7 @@ pub struct Rate {
     pub ray_ms: f64,
     /// Most rays for which the estimate holds.
     pub max_rays: f64,
-    /// Most rays of a piece whose fixed time alone is too long.
+    /// Most rays where the fixed time alone is longer than a piece should be.
     careful_rays: f64,
 }
 
@@ -93,8 +93,10 @@ impl Rate {
         self.fixed_ms + self.ray_ms * rays
     }
 
-    /// Most rays of the next piece: they take `aim_ms`, or as long as the fixed time where that is longer, beside the fixed
-    /// time. Sizes that were measured limit it.
+    /// Most rays of the next piece, whose rays are to take `aim_ms`.
+    ///
+    /// The fixed time comes on top. If it is longer than `aim_ms`, the rays take as long as it does. The sizes of measured
+    /// pieces limit both.
     pub fn rays(&self, aim_ms: f64) -> f64 {
         let limit = if self.fixed_ms > aim_ms { self.careful_rays } else { self.max_rays };
         (aim_ms.max(self.fixed_ms) / self.ray_ms).min(limit)

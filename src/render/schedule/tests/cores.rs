@@ -1,11 +1,12 @@
-//! GPUs whose workgroups run side by side, each for longer than a piece may take: those of expensive scenes.
+//! GPUs on which workgroups run side by side, each for longer than a piece may take, as in expensive scenes.
 
 use super::*;
 
 const SMALL_PX: [u32; 2] = [160, 90];
 
-/// The time of the longest refining piece, in those of a workgroup, and the time of the whole picture, in the least possible
-/// one: `cores` workgroups run side by side, each for `workgroup_ms`, and each piece takes `overhead_ms` more.
+/// The time of the longest refining piece over that of a workgroup, and the time of the whole picture over the least possible.
+///
+/// `cores` workgroups run side by side, each for `workgroup_ms`; each piece takes `overhead_ms` more.
 fn longest_and_whole(cores: u32, workgroup_ms: f64, overhead_ms: f64) -> (f64, f64) {
     let mut schedule = schedule_of_lights(Pace::Interactive, SMALL_PX);
     schedule.aim(16.0, 8);
@@ -31,7 +32,7 @@ fn longest_and_whole(cores: u32, workgroup_ms: f64, overhead_ms: f64) -> (f64, f
     (longest_ms / workgroup_ms, now * 1e3 / least_ms)
 }
 
-/// Pieces of one and of two workgroups take the same time there, as if all of it were fixed.
+/// On two cores or more, pieces of one and of two workgroups take the same time, as if all of it were fixed.
 #[test]
 fn workgroups_side_by_side_do_not_make_pieces_long() {
     for overhead in [0.0, 0.15] {
