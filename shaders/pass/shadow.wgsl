@@ -18,7 +18,7 @@ fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
     let surface_distance = seen.surface_distance;
     let direction = seen.light.toward;
     let farthest = min(dispatch.light_reach, seen.light.distance);
-    var s = min(min(farthest, clear), bounding_interval(point, direction).y);
+    var s = min(min(farthest, clear), bounding_interval(point, direction, frame.march.bounding_radius).y);
     var over = over_relaxation();
     let checks_hits = needs_hit_check();
     var looks = 0u;

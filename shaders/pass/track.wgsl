@@ -69,7 +69,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     var clear = queued.clear;
     if (is_path_queue()) { clear = 0.0; }
     if (is_shadow) { ray = Ray(ray.origin, ray.radius, paths[site.ray].nee_direction, path_cone()); }
-    var interval = bounding_interval(ray.origin, ray.direction);
+    var interval = bounding_interval(ray.origin, ray.direction, frame.march.bounding_radius);
     if (is_shadow) {
         interval.y = min(interval.y, paths[site.ray].nee_distance);
     } else if (dispatch.bounce > 0u) {

@@ -59,6 +59,10 @@ pub struct MarchPolicy {
     ///
     /// Hits are then checked over half a hit distance.
     pub checks_hits: bool,
+    /// True if the bounding sphere holds the whole set; false if it may cut the set.
+    ///
+    /// Rays that pass beside a sphere that holds the set can be within the hit distance of it.
+    pub sphere_holds_set: bool,
     /// Half width of the cone about a shadow ray that a blocker has to fill.
     ///
     /// Per unit of distance to the shaded point. The default is half the sun's apparent size.
@@ -75,6 +79,7 @@ impl Default for MarchPolicy {
             relaxation: 1.4,
             ball_part: 1.0,
             checks_hits: false,
+            sphere_holds_set: false,
             shadow_cone: 0.004,
             shadow_margin: 0.5,
             shadow_min_step: 0.0,

@@ -53,10 +53,11 @@ impl FrameUniforms {
     ///
     /// Without the kernel's step limits, which [`Inputs::about`] adds.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let march = march::march(scene, region, space);
+        let camera = camera::camera(scene, region, space);
+        let march = march::march(scene, region, space, camera.hit_cone);
         let iterations = march.iterations;
         Self {
-            camera: camera::camera(scene, region, space),
+            camera,
             eyes: camera::eyes(&scene.camera, region, space),
             march,
             surface: surface::surface(scene),

@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 22] = [
+const HARD: [(&str, Size); 24] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -74,6 +74,10 @@ const HARD: [(&str, Size); 22] = [
     (include_str!("hard_views/hollow.json"), SIZE),
     // Power 9 at 2e-6: the estimate at the eye is 8.5 times the distance, and would let plain f32 draw the view.
     (include_str!("hard_views/overestimated.json"), SIZE),
+    // A Julia set of power 16 from 0.66, whose lobes touch the bounding sphere: rays outside of it are within a hit distance.
+    (include_str!("hard_views/beside_sphere.json"), SIZE),
+    // Power 10.07 at 3.6e-3: sheets 1.2 hit distances thick, which over-relaxed steps pass.
+    (include_str!("hard_views/seam_sheets.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;

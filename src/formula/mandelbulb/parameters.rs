@@ -18,6 +18,11 @@ params! {
 /// The estimate of lower powers has false minima: see [`super::estimator`].
 pub const HIT_CHECK_BELOW: f64 = 4.0;
 
+/// Over-relaxation of rays of powers that are not whole.
+///
+/// Their seams leave sheets about as thick as a hit distance, which longer steps pass.
+const MOST_RELAXED_AT_SEAMS: f32 = 1.1;
+
 /// Limits of steps that come from an orbit's Jacobian at one point.
 ///
 /// The Jacobian changes within a step, so that a cone of the whole step passes surfaces.
@@ -195,10 +200,15 @@ impl Mandelbulb {
         let usual = MarchPolicy::default();
         let mix = |usual: f32, at_low: f32| usual * (1.0 - low) + at_low * low;
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
+        let most = match self.integer_power() {
+            Some(_) => usual.relaxation,
+            None => MOST_RELAXED_AT_SEAMS,
+        };
         MarchPolicy {
-            relaxation: (1.0 - relaxed) + usual.relaxation * relaxed,
+            relaxation: (1.0 - relaxed) + most * relaxed,
             ball_part: (0.25 * power - 0.5).clamp(0.7, 1.0),
             checks_hits: self.power < HIT_CHECK_BELOW,
+            sphere_holds_set: true,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
             shadow_margin: mix(usual.shadow_margin, 0.15),
             shadow_min_step: (5.0 - 1.5 * power).clamp(0.0, 2.0),
@@ -244,7 +254,8 @@ mod tests {
     fn high_powers_march_by_the_usual_policy() {
         for power in [4.0, 8.0, 16.0] {
             let policy = Mandelbulb { power, ..Default::default() }.march_policy();
-            assert_eq!(policy, MarchPolicy { ball_part: policy.ball_part, ..Default::default() });
+            let usual = MarchPolicy { sphere_holds_set: true, ..Default::default() };
+            assert_eq!(policy, MarchPolicy { ball_part: policy.ball_part, ..usual });
         }
     }
 }

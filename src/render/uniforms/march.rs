@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::March;
 use crate::{
-    formula::StepLimits,
+    formula::{MarchPolicy, StepLimits},
+    fractal::FractalModel,
     render::{Region, space::RenderSpace},
     scene::Scene,
 };
@@ -12,7 +13,7 @@ use crate::{
 /// Most loop turns of an invocation, over all its loops.
 ///
 /// llvmpipe stops an invocation after 65,535 turns; other drivers have watchdogs.
-const LOOP_TURNS: u32 = 60_000;
+const LOOP_TURNS: u32 = 65_000;
 
 /// Loop turns of an orbit besides its steps.
 const LOOPS_OF_AN_ORBIT: u32 = 8;
@@ -38,7 +39,9 @@ const UNLIMITED_GROWTH: f32 = 1e9;
 const FINEST_HIT: f32 = 4e-7;
 
 /// The march policy and its limits in a view, without the kernel's own limits: see [`March::with_step_limits`].
-pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
+///
+/// `hit_cone` is the hit distance per unit of depth.
+pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) -> March {
     let model = space.model();
     let fractal = model.fractal();
     let reference = space.reference();
@@ -54,6 +57,7 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         anchor: anchor.as_vec3().to_array(),
         scale: space.scale() as f32,
         bounding_radius: model.bounding_radius() as f32,
+        camera_radius: camera_radius(scene, model, &policy, hit_cone.into()) as f32,
         iterations,
         march_steps: march_steps(iterations, is_deep),
         shadow_steps: shadow_steps(iterations, is_deep),
@@ -67,6 +71,20 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         shadow_margin: policy.shadow_margin,
         shadow_min_step: policy.shadow_min_step,
     }
+}
+
+/// Radius of the sphere in which camera rays beside the bounding sphere march, in scene units.
+///
+/// If the bounding sphere holds the set, a ray beside it hits where the set is within the hit distance: the radius is greater
+/// by the hit distance on the sphere's far side. If the sphere cuts the set, such rays miss. So do bounced rays, since light
+/// must not depend on the picture's size.
+fn camera_radius(scene: &Scene, model: &FractalModel, policy: &MarchPolicy, hit_cone: f64) -> f64 {
+    let radius = model.bounding_radius();
+    if !policy.sphere_holds_set {
+        return radius;
+    }
+    let farthest = scene.camera.position.to_dvec3().length() + radius;
+    radius + hit_cone * farthest
 }
 
 /// Most steps of a camera ray.

@@ -80,6 +80,8 @@ host_shared! {
         scale: f32,
         /// Radius about the scene's origin of a sphere that holds the set, in scene units.
         bounding_radius: f32,
+        /// Radius of the sphere in which camera rays beside the bounding sphere march, in scene units.
+        camera_radius: f32,
         /// Most steps of an orbit.
         iterations: u32,
         /// Most steps of a camera ray.
