@@ -35,7 +35,7 @@ pub struct Preparation {
     variant: PipelineVariant,
     announced_secs: f64,
     frames: u32,
-    /// Flags of asynchronous compilations, one per part; empty before their start, or if unsupported.
+    /// Flags of asynchronous compilations, one for each of the first parts; empty before their start, or if unsupported.
     compiled: Vec<Arc<AtomicBool>>,
     made: Vec<wgpu::ComputePipeline>,
     /// The flag that the rehearsal has finished; none before the rehearsal.
@@ -82,11 +82,14 @@ impl Preparation {
     }
 
     /// Takes the next step; compiles at most one pipeline of those that block.
+    ///
+    /// Of those that don't, `at_once` are under way at most.
     pub fn step(
         &mut self,
         pipelines: &Pipelines,
         targets: &Targets,
         inputs: &Inputs,
+        at_once: usize,
         now_secs: f64,
     ) -> PreparationState {
         let is_true = |flag: &Arc<AtomicBool>| flag.load(Ordering::Acquire);
@@ -102,15 +105,17 @@ impl Preparation {
             return PreparationState::Background;
         }
         let parts = part_count(&self.variant);
-        if !self.has_begun() {
-            self.compiled =
-                (0..parts).filter_map(|part| pipelines.begin(&self.variant, part)).collect();
+        if self.made.is_empty() {
+            let under_way = self.compiled.iter().filter(|flag| !is_true(flag)).count();
+            let next = (self.compiled.len()..parts).take(at_once.saturating_sub(under_way));
+            self.compiled.extend(next.filter_map(|part| pipelines.begin(&self.variant, part)));
         }
-        if !self.compiled.iter().all(is_true) {
+        let is_async = !self.compiled.is_empty();
+        if is_async && !(self.compiled.len() == parts && self.compiled.iter().all(is_true)) {
             return PreparationState::Background;
         }
-        let at_once = if self.compiled.is_empty() { 1 } else { parts };
-        for part in (self.made.len()..parts).take(at_once) {
+        let now = if is_async { parts } else { 1 };
+        for part in (self.made.len()..parts).take(now) {
             self.made.push(pipelines.make(&self.variant, part));
         }
         if self.made.len() == parts {

@@ -37,7 +37,9 @@ thread_local! {
 pub fn async_compile(device: &wgpu::Device) -> Option<AsyncCompile> {
     let device = device.as_webgpu()?;
     let method = Reflect::get(device.as_ref(), &CREATE_ASYNC.into()).ok()?;
-    method.is_function().then_some(AsyncCompile { begin, take })
+    let cores = web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency());
+    let at_once = (cores / 2.0).max(1.0) as usize;
+    method.is_function().then_some(AsyncCompile { begin, take, at_once })
 }
 
 /// Starts to compile the pipeline that `create` creates. The flag turns true at the end.

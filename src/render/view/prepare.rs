@@ -38,7 +38,12 @@ impl View {
             let preparation = self.preparation.insert(preparation);
             let now_secs = self.times.now_secs();
             let (pipelines, targets) = (&self.pipelines, &self.targets);
-            match preparation.step(pipelines, targets, &inputs, now_secs) {
+            // Compilations take processor time from what is drawn meanwhile.
+            let at_once = match pipelines.gpu.async_compile {
+                Some(compile) if !is_awaited => compile.at_once,
+                _ => usize::MAX,
+            };
+            match preparation.step(pipelines, targets, &inputs, at_once, now_secs) {
                 PreparationState::Ready => {}
                 PreparationState::Background => return is_awaited,
                 PreparationState::Foreground => return true,
