@@ -2,7 +2,7 @@
 // steps of each ray. The empty ball that a safe step guarantees about a point of the axis must contain
 // the cone's whole width (cone marching: Seven, "Fast realistic ray marching"; here with balls
 // instead of steps).
-// uses: formula, lib/estimate_next, types/frame_uniforms
+// uses: formula, lib/estimate_next, types/estimate, types/frame_uniforms
 
 // Steps after which a cone that creeps along a surface stops and leaves the rest to its rays.
 const CONE_STEPS = 48u;
@@ -25,7 +25,8 @@ fn clear_cone(
         for (; i < CONE_STEPS; i++) {
             let ahead = estimate_next(&pending, fractal, origin + t * axis, cone_direction());
             if (pending.is_needed) { break; }
-            let ball = min(part * ahead.step, MAX_BALL) - hit_cone * t;
+            let from_eye = select(1.0, STEP_FROM_EYE, t == 0.0);
+            let ball = min(from_eye * part * ahead.step, MAX_BALL) - hit_cone * t;
             let width = t * spread;
             if (ball <= width) { break; }
             // Points of the cone at a distance of t + advance from the origin are in the ball:

@@ -1,6 +1,6 @@
 // Marches rays to surface points: writes depth and colour data of each sample, and moves the ray there.
 // uses: formula, lib/estimate_next, lib/over_relaxation, lib/section, lib/sphere
-// uses: types/dispatch_params, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
+// uses: types/dispatch_params, types/estimate, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // Least step, in hit distances; rays may pass thinner parts of the surface.
 const MIN_STEP = 0.25;
@@ -63,6 +63,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var t = max(interval.x, clear);
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
+    if (t == 0.0 && !is_bounced()) { over.next = STEP_FROM_EYE; }
     // Depth of the last point, and the distance that was missing to a hit there. A cone may end inside the set where its
     // estimate is too large: the way to a ray's first point starts at the bounding sphere.
     var before = interval.x;

@@ -66,6 +66,9 @@ pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<R
     loop {
         let scene = scene_of(&fractal, &eye, direction, distance, random);
         if distance <= scale {
+            if !is_outside(&scene, distance) {
+                return None;
+            }
             let Mandelbulb { power, julia, sine, .. } = fractal;
             let name = format!("power {power}, {sine:?}, julia {julia}, from {distance:.1e}");
             return Some(RandomView { name, scene });
@@ -83,6 +86,16 @@ pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<R
         eye = eye.moved_by(direction * (depth - closer), 1e-6 * closer);
         distance = closer;
     }
+}
+
+/// Whether the orbit of the eye escapes within the scene's own steps: where orbits are slow, the set of so few steps holds an
+/// eye that is outside of the set itself.
+fn is_outside(scene: &Scene, distance: f64) -> bool {
+    let formula = scene.fractal.formula();
+    let footprint = SetView::new(scene, SIZE, 0).footprint(distance);
+    let own = formula.iterations_for(&scene.fractal, footprint);
+    let looking = SetView::new(scene, SIZE, own);
+    looking.estimate(looking.direction([0.0, 0.0]), 0.0).distance > 0.0
 }
 
 fn random_power(random: &mut Random) -> f64 {
