@@ -25,8 +25,8 @@ fn clear_cone(
         for (; i < CONE_STEPS; i++) {
             let ahead = estimate_next(&pending, fractal, origin + t * axis, cone_direction());
             if (pending.is_needed) { break; }
-            let from_eye = select(1.0, STEP_FROM_EYE, t == 0.0);
-            let ball = min(from_eye * part * ahead.step, MAX_BALL) - hit_cone * t;
+            let part_here = select(part, min(part, STEP_FROM_EYE), t == 0.0);
+            let ball = min(part_here * ahead.step, MAX_BALL) - hit_cone * t;
             let width = t * spread;
             if (ball <= width) { break; }
             // Points of the cone at a distance of t + advance from the origin are in the ball:

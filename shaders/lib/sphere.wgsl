@@ -13,23 +13,23 @@ fn in_view(length: f32) -> f32 {
 }
 
 // Distances of entry and exit along a unit direction; exit < entry if the ray misses the sphere. Of a ray that passes
-// beside the sphere, the distances are those of a sphere with the radius `widest`, in scene units.
-fn sphere_interval(origin: vec3f, direction: vec3f, widest: f32) -> vec2f {
+// beside the sphere, the distances are those of a sphere with the radius `beside`, in scene units.
+fn sphere_interval(origin: vec3f, direction: vec3f, beside: f32) -> vec2f {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
     // The closest approach itself instead of |origin|² - b²: no cancellation for a far origin.
     let closest = from_center - b * direction;
     let radius = frame.march.bounding_radius;
     var half_chord_squared = radius * radius - dot(closest, closest);
-    if (half_chord_squared <= 0.0) { half_chord_squared = widest * widest - dot(closest, closest); }
+    if (half_chord_squared <= 0.0) { half_chord_squared = beside * beside - dot(closest, closest); }
     if (half_chord_squared <= 0.0) { return vec2f(1.0, -1.0); }
     let half_chord = sqrt(half_chord_squared);
     return vec2f(in_view(max(-b - half_chord, 0.0)), in_view(half_chord - b));
 }
 
 // The same for the part of the sphere under all section planes.
-fn bounding_interval(origin: vec3f, direction: vec3f, widest: f32) -> vec2f {
-    return clip_interval(sphere_interval(origin, direction, widest), origin, direction);
+fn bounding_interval(origin: vec3f, direction: vec3f, beside: f32) -> vec2f {
+    return clip_interval(sphere_interval(origin, direction, beside), origin, direction);
 }
 
 // The distance along a unit direction at which the last ray of a cone has left the sphere, or is over a section plane.
@@ -53,7 +53,7 @@ fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     // Slightly more than `spread`, since the arc is longer than its tangent.
     let edge = normalize(axis + 1.01 * spread / max(length(aside), 1e-30) * aside);
     let nearest = select(edge, toward, distance(toward, axis) <= spread);
-    let interval = sphere_interval(origin, nearest, frame.march.camera_radius);
+    let interval = sphere_interval(origin, nearest, frame.march.radius_beside);
     let entry = cone_section_entry(origin, axis, spread);
     return select(max(interval.x, entry), -1.0, interval.y < interval.x || entry < 0.0);
 }

@@ -158,8 +158,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
-    let widest = select(frame.march.camera_radius, frame.march.bounding_radius, is_bounced());
-    var interval = bounding_interval(ray.origin, ray.direction, widest);
+    let beside = select(frame.march.radius_beside, frame.march.bounding_radius, is_bounced());
+    var interval = bounding_interval(ray.origin, ray.direction, beside);
     if (is_bounced()) { interval.y = min(interval.y, min(frame.paths.ray_reach, stored_fog_distance(site.index))); }
     let cut = section_entry(ray.origin, ray.direction);
     // A ray that enters the set through a section plane ends there. Estimates are no test for that: some are positive

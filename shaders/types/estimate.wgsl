@@ -9,8 +9,8 @@ struct Estimate {
     step: f32,
 }
 
-// The step of a camera ray or of its cone from the eye, over the safe step. It is the longest, and goes past what is in
-// front of the eye if it is longer than the way there: up to 1.13 times as long in random views.
+// Greatest part of the safe step that a camera ray or its cone takes from an eye inside the bounding sphere: the safe step
+// there was up to 1.13 times the way to the surface in random views.
 const STEP_FROM_EYE = 0.7;
 
 struct OrbitColors {

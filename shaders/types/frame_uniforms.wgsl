@@ -30,11 +30,11 @@ struct March {
     // Origin and unit of render space, in scene units.
     anchor: vec3f,
     scale: f32,
-    // Radius of a sphere about the scene's origin that holds the set, in scene units.
+    // Radius of a sphere about the scene's origin that holds what is drawn of the set, in scene units.
     bounding_radius: f32,
     // Radius, in scene units, of the sphere in which camera rays march that pass beside the bounding sphere: greater by
     // the hit distance, unless the bounding sphere cuts the set.
-    camera_radius: f32,
+    radius_beside: f32,
     // Most steps of an orbit, of a camera ray and of a shadow ray.
     iterations: u32,
     march_steps: u32,

@@ -59,9 +59,9 @@ pub struct MarchPolicy {
     ///
     /// Hits are then checked over half a hit distance.
     pub checks_hits: bool,
-    /// True if the bounding sphere holds the whole set; false if it may cut the set.
+    /// True if [`DistanceField::bounding_radius`] is of a sphere that holds the whole set, false if it may cut the set.
     ///
-    /// Rays that pass beside a sphere that holds the set can be within the hit distance of it.
+    /// Camera rays beside a sphere that holds the set can be within the hit distance of the set.
     pub sphere_holds_set: bool,
     /// Half width of the cone about a shadow ray that a blocker has to fill.
     ///
@@ -154,7 +154,7 @@ pub trait DistanceField: Send + Sync {
         DVec3::ZERO
     }
 
-    /// Radius of a sphere about [`Self::center`] that holds the surface, in scene units.
+    /// Radius of a sphere about [`Self::center`] that holds the surface that is drawn, in scene units.
     fn bounding_radius(&self) -> f64;
 
     /// True if the estimate has false minima thinner than a pixel.

@@ -81,9 +81,9 @@ impl Preparation {
         self.frames += 1;
     }
 
-    /// Takes the next step; compiles at most one pipeline of those that block.
+    /// Takes the next step.
     ///
-    /// Of those that don't, `at_once` are under way at most.
+    /// With asynchronous compilation, at most `at_once` pipelines are under way. Without, a step compiles one.
     pub fn step(
         &mut self,
         pipelines: &Pipelines,
@@ -108,7 +108,7 @@ impl Preparation {
         if self.made.is_empty() {
             let under_way = self.compiled.iter().filter(|flag| !is_true(flag)).count();
             let next = (self.compiled.len()..parts).take(at_once.saturating_sub(under_way));
-            self.compiled.extend(next.filter_map(|part| pipelines.begin(&self.variant, part)));
+            self.compiled.extend(next.map_while(|part| pipelines.begin(&self.variant, part)));
         }
         let is_async = !self.compiled.is_empty();
         if is_async && !(self.compiled.len() == parts && self.compiled.iter().all(is_true)) {

@@ -276,7 +276,7 @@ fn asynchronous_compilation_blocks_no_frame() {
     }
     assert_eq!(watched.pipelines.made(), made);
     assert_eq!(async_compile::finish(), AT_ONCE);
-    // The rest of its four; its normals are a matter of their own.
+    // The fourth pipeline of power 8, then that of its normals.
     for (what, parts) in [("power 8", 1), ("power 8", 1), ("light", 2), ("tone mapping", 2)] {
         compile(&mut watched, what, parts);
     }

@@ -74,9 +74,9 @@ const HARD: [(&str, Size); 25] = [
     (include_str!("hard_views/hollow.json"), SIZE),
     // Power 9 at 2e-6: the estimate at the eye is 8.5 times the distance, and would let plain f32 draw the view.
     (include_str!("hard_views/overestimated.json"), SIZE),
-    // A Julia set of power 16 from 0.66, whose lobes touch the bounding sphere: rays outside of it are within a hit distance.
+    // A Julia set of power 16 from 0.66: rays outside of the bounding sphere are within a hit distance of the set.
     (include_str!("hard_views/beside_sphere.json"), SIZE),
-    // Power 9 at 2.2e-4: the longest safe step from the eye is 1.13 times the way to the surface.
+    // Power 9 at 2.2e-4: the safe step from the eye is 1.13 times the way to the surface.
     (include_str!("hard_views/long_first_step.json"), SIZE),
     // Power 10.07 at 3.6e-3: sheets 1.2 hit distances thick, which over-relaxed steps pass.
     (include_str!("hard_views/seam_sheets.json"), SIZE),

@@ -21,7 +21,7 @@ pub const HIT_CHECK_BELOW: f64 = 4.0;
 /// Over-relaxation of rays of powers that are not whole.
 ///
 /// Their seams leave sheets about as thick as a hit distance, which longer steps pass.
-const MOST_RELAXED_AT_SEAMS: f32 = 1.1;
+const RELAXATION_AT_SEAMS: f32 = 1.1;
 
 /// Limits of steps that come from an orbit's Jacobian at one point.
 ///
@@ -202,7 +202,7 @@ impl Mandelbulb {
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
         let most = match self.integer_power() {
             Some(_) => usual.relaxation,
-            None => MOST_RELAXED_AT_SEAMS,
+            None => RELAXATION_AT_SEAMS,
         };
         MarchPolicy {
             relaxation: (1.0 - relaxed) + most * relaxed,
@@ -257,5 +257,15 @@ mod tests {
             let usual = MarchPolicy { sphere_holds_set: true, ..Default::default() };
             assert_eq!(policy, MarchPolicy { ball_part: policy.ball_part, ..usual });
         }
+    }
+
+    #[test]
+    fn powers_that_are_not_whole_take_shorter_steps() {
+        let relaxation =
+            |power| Mandelbulb { power, ..Default::default() }.march_policy().relaxation;
+        assert_eq!(relaxation(10.07), RELAXATION_AT_SEAMS);
+        assert_eq!(relaxation(10.0), MarchPolicy::default().relaxation);
+        assert_eq!(relaxation(2.0), 1.0);
+        assert!((1.0..RELAXATION_AT_SEAMS).contains(&relaxation(2.5)));
     }
 }

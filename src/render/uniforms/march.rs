@@ -57,7 +57,7 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
         anchor: anchor.as_vec3().to_array(),
         scale: space.scale() as f32,
         bounding_radius: model.bounding_radius() as f32,
-        camera_radius: camera_radius(scene, model, &policy, hit_cone.into()) as f32,
+        radius_beside: radius_beside(scene, model, &policy, hit_cone.into()) as f32,
         iterations,
         march_steps: march_steps(iterations, is_deep),
         shadow_steps: shadow_steps(iterations, is_deep),
@@ -76,9 +76,8 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
 /// Radius of the sphere in which camera rays beside the bounding sphere march, in scene units.
 ///
 /// If the bounding sphere holds the set, a ray beside it hits where the set is within the hit distance: the radius is greater
-/// by the hit distance on the sphere's far side. If the sphere cuts the set, such rays miss. So do bounced rays, since light
-/// must not depend on the picture's size.
-fn camera_radius(scene: &Scene, model: &FractalModel, policy: &MarchPolicy, hit_cone: f64) -> f64 {
+/// by the hit distance on the sphere's far side. If the sphere may cut the set, such rays miss.
+fn radius_beside(scene: &Scene, model: &FractalModel, policy: &MarchPolicy, hit_cone: f64) -> f64 {
     let radius = model.bounding_radius();
     if !policy.sphere_holds_set {
         return radius;
@@ -93,7 +92,9 @@ fn camera_radius(scene: &Scene, model: &FractalModel, policy: &MarchPolicy, hit_
 /// into the depth takes additional steps.
 fn march_steps(iterations: u32, is_deep: bool) -> u32 {
     let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
-    most.min(LOOP_TURNS / (iterations + LOOPS_OF_AN_ORBIT))
+    let turns_of_an_orbit = iterations + LOOPS_OF_AN_ORBIT;
+    // One more orbit gives the colours.
+    most.min(LOOP_TURNS / turns_of_an_orbit - 1)
 }
 
 fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
@@ -111,5 +112,48 @@ impl March {
             Some(StepLimits { ball_part, ball_growth }) => Self { ball_part, ball_growth, ..self },
             None => self,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::{
+        formula::{self, Fractal},
+        render::uniforms::FrameUniforms,
+        scene::{Camera, param},
+    };
+
+    fn march_of(scene: &Scene, height_px: u32) -> March {
+        FrameUniforms::new(scene, Region::whole([height_px * 3 / 2, height_px])).march
+    }
+
+    /// llvmpipe ends an invocation at 65,535 turns.
+    #[test]
+    fn the_steps_and_the_colours_orbit_are_within_the_turns_of_an_invocation() {
+        for iterations in [1, 16, 100, param::ITERATIONS.max as u32, 5000] {
+            for is_deep in [false, true] {
+                let orbits = march_steps(iterations, is_deep) + 1;
+                assert!(orbits * (iterations + LOOPS_OF_AN_ORBIT) <= LOOP_TURNS, "{iterations}");
+            }
+        }
+    }
+
+    #[test]
+    fn rays_beside_a_sphere_that_holds_the_set_march_within_a_hit_distance() {
+        let mut scene = Scene {
+            camera: Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z),
+            ..Scene::default()
+        };
+        let [small, large] = [24, 240].map(|height| march_of(&scene, height));
+        let wider = |march: &March| march.radius_beside - march.bounding_radius;
+        let cone = f64::from(wider(&small)) / (3.0 + f64::from(small.bounding_radius));
+        let half_height = (scene.camera.vertical_fov_deg.to_radians() / 2.0).tan();
+        assert!((cone / (half_height / 24.0) - 1.0).abs() < 1e-3, "{cone}");
+        assert!((wider(&small) / wider(&large) - 10.0).abs() < 0.01);
+        scene.fractal = Fractal::new(formula::find("mandelbox").expect("a formula"));
+        assert_eq!(wider(&march_of(&scene, 24)), 0.0);
     }
 }

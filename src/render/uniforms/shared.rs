@@ -78,10 +78,10 @@ host_shared! {
         anchor: [f32; 3],
         /// Unit of render space, in scene units.
         scale: f32,
-        /// Radius about the scene's origin of a sphere that holds the set, in scene units.
+        /// Radius about the scene's origin of a sphere that holds what is drawn of the set, in scene units.
         bounding_radius: f32,
         /// Radius of the sphere in which camera rays beside the bounding sphere march, in scene units.
-        camera_radius: f32,
+        radius_beside: f32,
         /// Most steps of an orbit.
         iterations: u32,
         /// Most steps of a camera ray.

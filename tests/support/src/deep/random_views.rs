@@ -37,6 +37,8 @@ const MET: f64 = 1.5;
 const CLOSER: f64 = 0.12;
 /// Size of the pictures whose rays the descent takes.
 const SIZE: Size = [96, 64];
+/// Size of the smallest pictures of the views, which take the fewest iterations.
+const COARSEST: Size = [36, 24];
 
 /// A random view.
 pub struct RandomView {
@@ -88,13 +90,13 @@ pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<R
     }
 }
 
-/// Whether the orbit of the eye escapes within the scene's own steps: where orbits are slow, the set of so few steps holds an
-/// eye that is outside of the set itself.
+/// True if the eye is outside of the set that the program draws.
+///
+/// Where orbits are slow, the set of the scene's own iterations is thicker than the set itself, and may hold the eye.
 fn is_outside(scene: &Scene, distance: f64) -> bool {
-    let formula = scene.fractal.formula();
-    let footprint = SetView::new(scene, SIZE, 0).footprint(distance);
-    let own = formula.iterations_for(&scene.fractal, footprint);
-    let looking = SetView::new(scene, SIZE, own);
+    let footprint = SetView::new(scene, COARSEST, 0).footprint(distance);
+    let own = scene.fractal.formula().iterations_for(&scene.fractal, footprint);
+    let looking = SetView::new(scene, COARSEST, own);
     looking.estimate(looking.direction([0.0, 0.0]), 0.0).distance > 0.0
 }
 
