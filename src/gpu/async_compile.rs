@@ -16,6 +16,6 @@ pub struct AsyncCompile {
     ///
     /// Compiles the pipeline now if [`Self::begin`] was not called or failed.
     pub take: fn(&wgpu::Device, &mut dyn FnMut()),
-    /// Most pipelines that are compiled at once while pictures are drawn without them; at least 1.
+    /// Most pipelines that are compiled at once while pictures are drawn without them, for all views; at least 1.
     pub at_once: usize,
 }

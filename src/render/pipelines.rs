@@ -2,7 +2,10 @@
 
 use std::{
     collections::{HashMap, HashSet},
-    sync::{Arc, Mutex, MutexGuard, PoisonError, atomic::AtomicBool},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 pub use super::{
@@ -34,6 +37,8 @@ pub struct Pipelines {
     /// The bind group layouts.
     pub layouts: Layouts,
     compiled: Mutex<HashMap<PipelineId, wgpu::ComputePipeline>>,
+    /// Flags of asynchronous compilations whose pipelines are not taken yet, by variant and part.
+    begun: Mutex<HashMap<(PipelineVariant, usize), Arc<AtomicBool>>>,
     /// Shader modules by pass and by the names of their files.
     shaders: Mutex<HashMap<(&'static str, Vec<&'static str>), wgpu::ShaderModule>>,
     /// Variants that are compiled and have been used once.
@@ -63,6 +68,7 @@ impl Pipelines {
             gpu: gpu.clone(),
             layouts: Layouts::new(gpu),
             compiled: Mutex::default(),
+            begun: Mutex::default(),
             shaders: Mutex::default(),
             ready: Mutex::default(),
             made: Mutex::default(),
@@ -146,17 +152,32 @@ impl Pipelines {
         self.prepare_together(&pipeline_set::specialized(&inputs));
     }
 
-    /// Starts to compile one pipeline asynchronously, `part` of [`part_count`].
+    /// Starts to compile one pipeline asynchronously, `part` of [`part_count`], unless a view has begun it already.
     ///
     /// Once the flag is true, [`Self::make`] has the pipeline at once. None where the platform cannot compile
     /// asynchronously.
     pub(super) fn begin(&self, variant: &PipelineVariant, part: usize) -> Option<Arc<AtomicBool>> {
         let compile = self.gpu.async_compile?;
-        Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(variant, part))))
+        let mut begun = locked(&self.begun);
+        let flag = begun.entry((variant.clone(), part)).or_insert_with(|| {
+            (compile.begin)(&self.gpu.device, &mut || drop(self.ask(variant, part)))
+        });
+        Some(flag.clone())
     }
 
-    /// Compiles one pipeline, `part` of [`part_count`], for [`Self::keep`].
+    /// Number of pipelines that are being compiled asynchronously, for all views.
+    pub(super) fn under_way(&self) -> usize {
+        locked(&self.begun).values().filter(|flag| !flag.load(Ordering::Acquire)).count()
+    }
+
+    /// Compiles one pipeline, `part` of [`part_count`], for [`Self::keep`]; one that is stored is returned as it is.
     pub(super) fn make(&self, variant: &PipelineVariant, part: usize) -> wgpu::ComputePipeline {
+        locked(&self.begun).remove(&(variant.clone(), part));
+        if let Some((pass, mode)) = parts(variant).nth(part)
+            && let Some(stored) = self.compiled(pass, mode, variant)
+        {
+            return stored;
+        }
         let mut made = None;
         if let Some(compile) = self.gpu.async_compile {
             (compile.take)(&self.gpu.device, &mut || made = Some(self.ask(variant, part)));

@@ -83,7 +83,8 @@ impl Preparation {
 
     /// Takes the next step.
     ///
-    /// With asynchronous compilation, at most `at_once` pipelines are under way. Without, a step compiles one.
+    /// With asynchronous compilation, no pipeline is begun while `at_once` are under way, for all views. Without, a step
+    /// compiles one.
     pub fn step(
         &mut self,
         pipelines: &Pipelines,
@@ -105,14 +106,18 @@ impl Preparation {
             return PreparationState::Background;
         }
         let parts = part_count(&self.variant);
-        if self.made.is_empty() {
-            let under_way = self.compiled.iter().filter(|flag| !is_true(flag)).count();
-            let next = (self.compiled.len()..parts).take(at_once.saturating_sub(under_way));
-            self.compiled.extend(next.map_while(|part| pipelines.begin(&self.variant, part)));
-        }
-        let is_async = !self.compiled.is_empty();
-        if is_async && !(self.compiled.len() == parts && self.compiled.iter().all(is_true)) {
-            return PreparationState::Background;
+        let is_async = pipelines.gpu.async_compile.is_some();
+        // Another view may have compiled them meanwhile.
+        if is_async && !pipelines.has_own(&self.variant) {
+            while self.compiled.len() < parts
+                && pipelines.under_way() < at_once
+                && let Some(flag) = pipelines.begin(&self.variant, self.compiled.len())
+            {
+                self.compiled.push(flag);
+            }
+            if self.compiled.len() < parts || !self.compiled.iter().all(is_true) {
+                return PreparationState::Background;
+            }
         }
         let now = if is_async { parts } else { 1 };
         for part in (self.made.len()..parts).take(now) {

@@ -7,14 +7,13 @@ use std::{
 
 use mandelight::{
     formula::FormulaRef,
-    gpu::AsyncCompile,
     render::{
         Activity, Pace, Pipelines, Region, View, pipeline_set::INDIRECT, pipelines::PipelineVariant,
     },
     scene::{IndirectKind, IntegratorKind, MediumKind, Scene, SurfaceModel},
 };
 use mandelight_test_support::{
-    device::{fresh_gpu, fresh_pipelines, pipelines},
+    device::{fresh_pipelines, pipelines},
     patience::HANG,
     view::sampled,
 };
@@ -25,28 +24,50 @@ const AT_ONCE: usize = 3;
 
 /// A platform whose asynchronous compilation takes as long as a test wants.
 mod async_compile {
-    use std::sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
+    use std::{
+        cell::RefCell,
+        sync::{
+            Arc,
+            atomic::{AtomicBool, Ordering},
+        },
     };
 
-    /// What is under way.
-    pub static UNDER_WAY: Mutex<Vec<Arc<AtomicBool>>> = Mutex::new(Vec::new());
+    use mandelight::{gpu::AsyncCompile, render::Pipelines};
+    use mandelight_test_support::device::fresh_gpu;
 
-    pub fn begin(_: &wgpu::Device, ask: &mut dyn FnMut()) -> Arc<AtomicBool> {
+    use super::AT_ONCE;
+
+    thread_local! {
+        /// What is under way; a test has a thread of its own.
+        static UNDER_WAY: RefCell<Vec<Arc<AtomicBool>>> = const { RefCell::new(Vec::new()) };
+    }
+
+    /// Pipelines of a device of the platform.
+    pub fn pipelines() -> Arc<Pipelines> {
+        let mut gpu = fresh_gpu();
+        gpu.async_compile = Some(AsyncCompile { begin, take, at_once: AT_ONCE });
+        Pipelines::new(&gpu)
+    }
+
+    fn begin(_: &wgpu::Device, ask: &mut dyn FnMut()) -> Arc<AtomicBool> {
         ask();
         let is_over = Arc::new(AtomicBool::new(false));
-        UNDER_WAY.lock().expect("flags").push(is_over.clone());
+        UNDER_WAY.with_borrow_mut(|all| all.push(is_over.clone()));
         is_over
     }
 
-    pub fn take(_: &wgpu::Device, ask: &mut dyn FnMut()) {
+    fn take(_: &wgpu::Device, ask: &mut dyn FnMut()) {
         ask();
+    }
+
+    /// How much is under way.
+    pub fn under_way() -> usize {
+        UNDER_WAY.with_borrow(Vec::len)
     }
 
     /// All that is under way is ready. How much it was.
     pub fn finish() -> usize {
-        let flags = std::mem::take(&mut *UNDER_WAY.lock().expect("flags"));
+        let flags = UNDER_WAY.take();
         flags.iter().for_each(|flag| flag.store(true, Ordering::Release));
         flags.len()
     }
@@ -105,6 +126,16 @@ impl Watched {
             }
             assert!(self.start.elapsed() < HANG, "{:?}", self.view.report());
         }
+    }
+
+    /// Pumps until `parts` pipelines are under way, and `what` was announced last.
+    fn pump_until(&mut self, what: &str, parts: usize) {
+        let start = Instant::now();
+        while async_compile::under_way() < parts {
+            self.pump();
+            assert!(start.elapsed() < HANG, "{what}: {:?}", self.view.report());
+        }
+        assert_eq!(self.announced.last().map(String::as_str), Some(what));
     }
 
     fn show(&mut self, scene: &Scene) {
@@ -237,28 +268,13 @@ fn a_drag_of_the_power_compiles_nothing() {
 /// come once it has nothing else to do.
 #[test]
 fn asynchronous_compilation_blocks_no_frame() {
-    let mut gpu = fresh_gpu();
-    gpu.async_compile = Some(AsyncCompile {
-        begin: async_compile::begin,
-        take: async_compile::take,
-        at_once: AT_ONCE,
-    });
-    let mut watched = Watched::with(Pipelines::new(&gpu));
+    let mut watched = Watched::with(async_compile::pipelines());
     let made = watched.pipelines.made();
     let mut scene = sampled(Scene::default(), 1);
-    let under_way = || async_compile::UNDER_WAY.lock().expect("flags").len();
-    let pump_until = |watched: &mut Watched, what: &str, parts: usize| {
-        let start = Instant::now();
-        while under_way() < parts {
-            watched.pump();
-            assert!(start.elapsed() < HANG, "{what}: {:?}", watched.view.report());
-        }
-        assert_eq!(watched.announced.last().map(String::as_str), Some(what));
-    };
     // Compiles the next pipelines that are announced, no more than allowed at once.
     let compile = |watched: &mut Watched, what: &str, parts: usize| {
         for begun in (0..parts).step_by(AT_ONCE) {
-            pump_until(watched, what, AT_ONCE.min(parts - begun));
+            watched.pump_until(what, AT_ONCE.min(parts - begun));
             for _ in 0..3 {
                 watched.pump();
             }
@@ -266,7 +282,7 @@ fn asynchronous_compilation_blocks_no_frame() {
         }
     };
     watched.view.set_scene(&scene, false);
-    pump_until(&mut watched, "power 8", AT_ONCE);
+    watched.pump_until("power 8", AT_ONCE);
     // An edit is drawn while the power is on its way.
     let before = watched.view.report().pictures;
     scene.lights.environment[0].intensity = 1.0;
@@ -280,7 +296,7 @@ fn asynchronous_compilation_blocks_no_frame() {
     for (what, parts) in [("power 8", 1), ("power 8", 1), ("light", 2), ("tone mapping", 2)] {
         compile(&mut watched, what, parts);
     }
-    pump_until(&mut watched, "indirect light", 1);
+    watched.pump_until("indirect light", 1);
     assert_eq!(watched.pipelines.made().len(), made.len() + 9);
     assert_eq!(async_compile::finish(), 1);
     compile(&mut watched, "exposure and bloom", 6);
@@ -291,6 +307,47 @@ fn asynchronous_compilation_blocks_no_frame() {
     scene.tone.auto_exposure = true;
     watched.show(&scene);
     assert_eq!(watched.announced, [""; 0]);
+}
+
+/// Whatever is needed meanwhile, and however many views need it.
+#[test]
+fn a_pipeline_is_compiled_asynchronously_once() {
+    let pipelines = async_compile::pipelines();
+    let made = pipelines.made().len();
+    let mut scene = sampled(Scene::default(), 1);
+    let mut views = [0, 1].map(|_| Watched::with(pipelines.clone()));
+    for watched in &mut views {
+        watched.view.set_scene(&scene, false);
+    }
+    views[0].pump_until("power 8", AT_ONCE);
+    // The other view waits for the same pipelines.
+    while views[1].announced.is_empty() {
+        views[1].pump();
+    }
+    for _ in 0..400 {
+        views[1].pump();
+    }
+    assert_eq!(async_compile::under_way(), AT_ONCE);
+    // A need that cannot wait comes between, without a limit.
+    scene.indirect.kind = IndirectKind::Horizon;
+    views[0].view.set_scene(&scene, false);
+    views[0].pump_until("indirect light", AT_ONCE + 1);
+    async_compile::finish();
+    let mut begun = AT_ONCE + 1;
+    for watched in &mut views {
+        let start = Instant::now();
+        let mut rest = start;
+        while rest.elapsed() < Duration::from_millis(400) {
+            if watched.pump() {
+                rest = Instant::now();
+            }
+            begun += async_compile::finish();
+            assert!(start.elapsed() < HANG, "{:?}", watched.view.report());
+        }
+    }
+    let made = pipelines.made().split_off(made);
+    assert_eq!(made.len(), begun, "{made:?}");
+    assert_eq!(BTreeSet::from_iter(&made).len(), made.len(), "{made:?}");
 }
 
 /// A still has nobody to tell, and waits for nothing.
