@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 25] = [
+const HARD: [(&str, Size); 27] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -78,8 +78,12 @@ const HARD: [(&str, Size); 25] = [
     (include_str!("hard_views/beside_sphere.json"), SIZE),
     // Power 9 at 2.2e-4: the safe step from the eye is 1.13 times the way to the surface.
     (include_str!("hard_views/long_first_step.json"), SIZE),
+    // A Julia set of power 9.94 at 7e-3: about twice the way.
+    (include_str!("hard_views/longer_first_step.json"), SIZE),
     // Power 10.07 at 3.6e-3: sheets 1.2 hit distances thick, which over-relaxed steps pass.
     (include_str!("hard_views/seam_sheets.json"), SIZE),
+    // A Julia set of power 4.74 at 0.1, which also steps over-relaxed by a tenth pass.
+    (include_str!("hard_views/seam_layers.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;
