@@ -99,6 +99,13 @@ impl RenderSpace {
     pub fn footprint(&self, scene: &Scene, region: Region) -> f64 {
         self.nearest(scene) * self.scale() * cone(scene, region)
     }
+
+    /// The radius of a pixel's cone at the camera's pivot, in scene units.
+    ///
+    /// Where no surface is as near as the pivot, the set of too few iterations may be: it is thicker where orbits are slow.
+    pub fn footprint_at_pivot(&self, scene: &Scene, region: Region) -> f64 {
+        scene.camera.view_unit() * cone(scene, region)
+    }
 }
 
 /// Whether pixels are too fine for plain f32, and an anchor can help.

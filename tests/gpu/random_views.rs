@@ -187,6 +187,18 @@ fn hard_views_hold_their_limits() {
     }
 }
 
+/// Power 9 at 5e-21: no surface is nearer than 1e-15 (256 bits), but orbits in front of the eye are slow, and the set of the
+/// iterations that 1e-15 needs covers most of the picture.
+#[test]
+fn slow_orbits_in_front_of_the_pivot_have_enough_iterations() {
+    let scene =
+        document::from_json(include_str!("hard_views/slow_in_front.json")).expect("a scene");
+    let depths = single_samples(&scene, SIZE).depth;
+    let looking = SetView::new(&scene, SIZE, scene.fractal.iterations);
+    let hits = depths.iter().filter(|depth| looking.hit_at(**depth).is_some()).count();
+    assert!(hits < 70, "{hits} of {} rays hit", depths.len());
+}
+
 /// The angles that 90 of 100 of their normals hold, degrees: 25 and 8.0 measured; 74 and 15 if points inside the set face
 /// the eye, and grids are about the point.
 const FOOTPRINT_NORMALS: [(&str, f64); 2] = [(RIPPLED, 35.0), (RIPPLED_BELOW, 10.0)];

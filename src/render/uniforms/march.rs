@@ -49,7 +49,10 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
     let footprint = space.footprint(scene, region);
     let iterations = reference.map_or_else(
         || model.iterations_for(footprint),
-        |reference| reference.iterations_for(fractal, footprint),
+        |reference| {
+            let finest = footprint.min(space.footprint_at_pivot(scene, region));
+            reference.iterations_for(fractal, finest)
+        },
     );
     let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
     let policy = fractal.formula().march_policy(fractal);
