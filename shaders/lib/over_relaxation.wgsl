@@ -54,48 +54,44 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
     return part * part * part * part;
 }
 
-// Hits are checked if the estimate has false minima: a hit counts if the ray stays within the hit distance
-// for `CHECKED_THICKNESS` hit distances, at `THICKNESS_CHECKS` points. False minima are far thinner than a pixel, and
-// which of them a ray meets is chance.
+// Hits are checked if the estimate has false minima: a hit counts if the ray is within the hit distance at `NEAR_CHECKS` of
+// `THICKNESS_CHECKS` points along `CHECKED_THICKNESS` hit distances. False minima are far thinner than a pixel, and which
+// of them a ray meets is chance; in dust the estimate has false maxima that are as thin.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
-// After the part `late_part` of its steps a ray needs only `LATE_CHECKS`: it creeps through dust, and six checks would let it
-// pass layers that are thinner than two hit distances.
-const LATE_CHECKS = 1u;
+const NEAR_CHECKS = 3u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
-
-// Looks that a hit takes, after `spent` of `most` steps.
-fn required_looks(spent: u32, most: u32) -> u32 {
-    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > frame.march.late_part * f32(most));
-}
 
 // A hit that is being checked.
 struct Crossing {
     // Depths before and after the crossing.
     outside: f32,
     inside: f32,
-    // Number of looks taken, with the one that found the crossing. 0: no hit is being checked. More than
-    // `required_looks`: the hit counts.
+    // Number of looks taken, with the one that found the crossing. 0: no hit is being checked.
     looks: u32,
+    // Number of checks within the hit distance. `NEAR_CHECKS`: the hit counts.
+    near_checks: u32,
 }
 
-// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts, after `required` looks.
-fn next_look(
-    crossing: ptr<function, Crossing>, required: u32, before: f32, t: f32, hit: f32, is_near: bool,
-) -> f32 {
+// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts.
+fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, is_near: bool) -> f32 {
+    let between = CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit;
     let looks = (*crossing).looks;
     if (looks == 0u) {
-        *crossing = Crossing(before, t, 1u);
+        *crossing = Crossing(before, t, 1u, 0u);
         return 0.5 * (before + t);
     }
     if (looks > HALVINGS) {
-        (*crossing).looks = select(0u, looks + 1u, is_near);
-        if (is_near && looks >= required) { return (*crossing).inside; }
-        return t + select(0.0, CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit, is_near);
+        (*crossing).near_checks += select(0u, 1u, is_near);
+        let near_checks = (*crossing).near_checks;
+        if (near_checks == NEAR_CHECKS) { return (*crossing).inside; }
+        let fails = looks - HALVINGS - near_checks > THICKNESS_CHECKS - NEAR_CHECKS;
+        (*crossing).looks = select(looks + 1u, 0u, fails);
+        return t + select(between, 0.0, fails);
     }
     if (is_near) { (*crossing).inside = t; } else { (*crossing).outside = t; }
     (*crossing).looks = looks + 1u;
-    if (looks == HALVINGS) { return (*crossing).inside + CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit; }
+    if (looks == HALVINGS) { return (*crossing).inside + between; }
     return 0.5 * ((*crossing).outside + (*crossing).inside);
 }

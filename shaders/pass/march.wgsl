@@ -73,7 +73,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var colors = ColorPoint(0.0, UNKNOWN_LEFT);
     let checks_hits = needs_hit_check();
     let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
-    var crossing = Crossing(0.0, 0.0, 0u);
+    var crossing = Crossing(0.0, 0.0, 0u, 0u);
     // Depth of a point within the hit distance, while the crossing before it is sought; 0 before.
     var within_hit = 0.0;
     var i = 0u;
@@ -106,9 +106,8 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
                 colors = next_color_point(colors, before, t, ahead.distance, within);
             }
             if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
-                let required = required_looks(i, frame.march.march_steps);
-                t = next_look(&crossing, required, before, t, hit, ahead.distance < hit);
-                if (crossing.looks > required) { return ray_end(max(t, 1e-30), colors); }
+                t = next_look(&crossing, before, t, hit, ahead.distance < hit);
+                if (crossing.near_checks == NEAR_CHECKS) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
             let is_near = ahead.distance < hit;

@@ -42,7 +42,7 @@ fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
             }
             let blocks = blocking_distance(s, surface_distance);
             if (ahead.distance < blocks) {
-                // A hit must last, as for a camera ray.
+                // A blocker must last, at all points that a hit is checked at.
                 if (!checks_hits || looks == THICKNESS_CHECKS) { return false; }
                 looks++;
                 s -= CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * surface_distance;

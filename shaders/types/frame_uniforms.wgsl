@@ -47,8 +47,6 @@ struct March {
     ball_growth: f32,
     // Radius of the ball that a cone treats as empty, over the safe step.
     ball_part: f32,
-    // Part of a ray's steps after which its hits need fewer checks; 1: never.
-    late_part: f32,
     // 1 if the estimate has false minima thinner than a pixel.
     checks_hits: u32,
     // Radius, per unit of distance to the point, of the cone about a shadow ray that a blocker has to fill.

@@ -36,14 +36,14 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 27] = [
+const HARD: [(&str, Size); 29] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_zoomed.json"), HARD_SIZE),
     (RIPPLED, HARD_SIZE),
     (RIPPLED_BELOW, HARD_SIZE),
-    // Power 2, whose hits must last half a footprint.
+    // Power 2, whose hits are checked.
     (include_str!("hard_views/power_2.json"), HARD_SIZE),
     // A power that is not whole: the set has a seam.
     (include_str!("hard_views/real_power.json"), HARD_SIZE),
@@ -57,6 +57,9 @@ const HARD: [(&str, Size); 27] = [
     (include_str!("hard_views/slow_orbits.json"), HARD_SIZE),
     // Power 2 in dust, through which rays creep by their least steps. The reference takes seconds for few pixels.
     (include_str!("hard_views/dust.json"), [12, 8]),
+    // Power 2 at 3e-20, and a Julia set of power 2 at 5e-20: false maxima within layers that a ray must not pass.
+    (include_str!("hard_views/spiked_dust.json"), SIZE),
+    (include_str!("hard_views/spiked_sheets.json"), SIZE),
     // Power 6: the steps after the near ones stretch unevenly, so that an orbit's rounding counts a hundred times.
     (include_str!("hard_views/uneven.json"), SIZE),
     // Power 6 at 1e-6: the Jacobian changes so much within a step that cones of 0.7 of it end behind the surface.

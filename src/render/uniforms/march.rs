@@ -24,14 +24,6 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Part of a deep ray's steps after which its hits need fewer checks: the ray creeps through dust.
-///
-/// Plain rays have no such part: those that take many steps pass false minima along silhouettes, which all checks detect.
-const LATE_PART_OF_DEEP_RAYS: f32 = 0.62;
-
-/// The late part of rays whose hits always need all checks.
-const NEVER_LATE: f32 = 1.0;
-
 /// Growth of balls in views whose steps are bounds in every direction.
 const UNLIMITED_GROWTH: f32 = 1e9;
 
@@ -68,7 +60,6 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
         relaxation: policy.relaxation,
         ball_growth: UNLIMITED_GROWTH,
         ball_part: policy.ball_part,
-        late_part: if is_deep { LATE_PART_OF_DEEP_RAYS } else { NEVER_LATE },
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,

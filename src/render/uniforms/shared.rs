@@ -96,8 +96,6 @@ host_shared! {
         ball_growth: f32,
         /// Radius of the ball that a cone treats as empty, over the safe step.
         ball_part: f32,
-        /// Part of a ray's steps after which its hits need fewer checks; 1: never.
-        late_part: f32,
         /// 1 if the estimate has false minima.
         checks_hits: u32,
         /// Radius of a shadow ray's cone, per unit of distance to the point.
