@@ -275,8 +275,9 @@ impl RayMarch {
             if is_last {
                 return self.next_ray();
             }
-            // The depth alone would let no step grow at the eye.
-            let leap = LEAP * self.depth.max(LEAP * self.away);
+            // The depth alone would let no step grow at the eye. In Julia sets the estimate there may be thousands of
+            // times the distance.
+            let leap = LEAP * self.depth.max(LEAP * self.away.min(camera.view_unit()));
             self.depth += estimate.step.max((0.25 * estimate.distance).min(leap));
         }
         true

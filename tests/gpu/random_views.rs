@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 29] = [
+const HARD: [(&str, Size); 30] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -60,6 +60,8 @@ const HARD: [(&str, Size); 29] = [
     // Power 2 at 3e-20, and a Julia set of power 2 at 5e-20: false maxima within layers that a ray must not pass.
     (include_str!("hard_views/spiked_dust.json"), SIZE),
     (include_str!("hard_views/spiked_sheets.json"), SIZE),
+    // A Julia set of power 6: dust at 3e-14, a thousandth of the estimate at the eye.
+    (include_str!("hard_views/near_dust.json"), SIZE),
     // Power 6: the steps after the near ones stretch unevenly, so that an orbit's rounding counts a hundred times.
     (include_str!("hard_views/uneven.json"), SIZE),
     // Power 6 at 1e-6: the Jacobian changes so much within a step that cones of 0.7 of it end behind the surface.
@@ -199,7 +201,7 @@ fn slow_orbits_in_front_of_the_pivot_have_enough_iterations() {
     let depths = single_samples(&scene, SIZE).depth;
     let looking = SetView::new(&scene, SIZE, scene.fractal.iterations);
     let hits = depths.iter().filter(|depth| looking.hit_at(**depth).is_some()).count();
-    assert!(hits < 70, "{hits} of {} rays hit", depths.len());
+    assert!(hits < 5, "{hits} of {} rays hit", depths.len());
 }
 
 /// The angles that 90 of 100 of their normals hold, degrees: 25 and 8.0 measured; 74 and 15 if points inside the set face

@@ -69,6 +69,17 @@ fn an_anchor_in_dust_that_all_rays_pass_is_near_the_eye() {
     assert!((0.1..FARTHEST).contains(&far), "the anchor is {far} away");
 }
 
+/// Dust 3e-14 away: the estimate at the eye is 8.5e-11, and rays with a first leap of a part of that found an anchor 1.3e-9
+/// away.
+#[test]
+fn rays_find_dust_far_nearer_than_the_estimate_at_the_eye() {
+    let text = include_str!("../../gpu/hard_views/near_dust.json");
+    let scene = document::from_json(text).expect("a scene");
+    let search = Search::new(&scene.fractal, &scene.camera, ASPECT, None).expect("a search");
+    let far = (search.finish().anchor() - &scene.camera.position).length();
+    assert!(far < 1e-13, "the anchor is {far:e} away");
+}
+
 /// Power 9, 2.1e-6 from the pivot: the estimate at the eye is 8.5 times the depth of the nearest hit.
 #[test]
 fn a_view_whose_estimate_at_the_eye_is_too_large_wants_an_anchor() {
