@@ -45,9 +45,10 @@ const STEPS_AT_ONCE: u32 = 16;
 ///
 /// In distances from the eye to the surface.
 const NEAR_ENOUGH: f64 = 1e6;
-/// Depth of the farthest usable hit, over the larger of the estimate at the eye and the distance to the pivot.
+/// Depth of the farthest usable hit, over the distance to the pivot.
 ///
-/// If the nearest hit is farther, all rays have passed dust near the eye.
+/// If the nearest hit is farther, all rays have passed dust near the eye, or the pivot is in the open. An anchor as near as
+/// the pivot is as good for what is far away; the estimate at the eye, which may be thousands of times the distance, is not asked.
 const MAX_HIT_DEPTH: f64 = 100.0;
 /// Rounding of the anchor's position, as a part of its depth: its exact position does not matter.
 const GRAIN: f64 = 1e-12;
@@ -170,10 +171,10 @@ impl Search {
                 if rays.step(&self.camera, self.aspect) {
                     return None;
                 }
-                let far = MAX_HIT_DEPTH * rays.away.max(self.camera.view_unit());
-                let hit = rays.nearest.filter(|way| way.length() <= far);
+                let unit = self.camera.view_unit();
+                let hit = rays.nearest.filter(|way| way.length() <= MAX_HIT_DEPTH * unit);
                 // With no surface near enough, a point in front of the eye is as good an anchor as any.
-                let way = hit.unwrap_or(rays.away * self.camera.forward());
+                let way = hit.unwrap_or(rays.away.min(unit) * self.camera.forward());
                 let anchor = self.camera.position.moved_by(way, GRAIN * way.length());
                 match begun(&self.fractal, &anchor) {
                     Some(steps) => Stage::Anchor(Some(steps)),

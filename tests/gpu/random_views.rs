@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 30] = [
+const HARD: [(&str, Size); 31] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -62,6 +62,8 @@ const HARD: [(&str, Size); 30] = [
     (include_str!("hard_views/spiked_sheets.json"), SIZE),
     // A Julia set of power 6: dust at 3e-14, a thousandth of the estimate at the eye.
     (include_str!("hard_views/near_dust.json"), SIZE),
+    // Power 2 at 3e-7, in dust that the rays of the anchor's search pass: the estimate at the eye is over a thousand times as much.
+    (include_str!("hard_views/passed_dust.json"), SIZE),
     // Power 6: the steps after the near ones stretch unevenly, so that an orbit's rounding counts a hundred times.
     (include_str!("hard_views/uneven.json"), SIZE),
     // Power 6 at 1e-6: the Jacobian changes so much within a step that cones of 0.7 of it end behind the surface.
