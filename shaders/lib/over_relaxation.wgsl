@@ -54,12 +54,11 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
     return part * part * part * part;
 }
 
-// Hits are checked if the estimate has false minima: a hit counts if the ray is within the hit distance at `NEAR_CHECKS` of
+// Hits are checked if the estimate has false minima: a hit counts if the ray is within the hit distance at `near_checks` of
 // `THICKNESS_CHECKS` points along `CHECKED_THICKNESS` hit distances. False minima are far thinner than a pixel, and which
-// of them a ray meets is chance; in dust the estimate has false maxima that are as thin.
+// of them a ray meets is chance.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
-const NEAR_CHECKS = 3u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
 
@@ -70,7 +69,7 @@ struct Crossing {
     inside: f32,
     // Number of looks taken, with the one that found the crossing. 0: no hit is being checked.
     looks: u32,
-    // Number of checks within the hit distance. `NEAR_CHECKS`: the hit counts.
+    // Number of checks within the hit distance. `March.near_checks`: the hit counts.
     near_checks: u32,
 }
 
@@ -85,8 +84,8 @@ fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, i
     if (looks > HALVINGS) {
         (*crossing).near_checks += select(0u, 1u, is_near);
         let near_checks = (*crossing).near_checks;
-        if (near_checks == NEAR_CHECKS) { return (*crossing).inside; }
-        let fails = looks - HALVINGS - near_checks > THICKNESS_CHECKS - NEAR_CHECKS;
+        if (near_checks == frame.march.near_checks) { return (*crossing).inside; }
+        let fails = looks - HALVINGS - near_checks > THICKNESS_CHECKS - frame.march.near_checks;
         (*crossing).looks = select(looks + 1u, 0u, fails);
         return t + select(between, 0.0, fails);
     }

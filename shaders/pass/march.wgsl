@@ -107,7 +107,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
             }
             if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
-                if (crossing.near_checks == NEAR_CHECKS) { return ray_end(max(t, 1e-30), colors); }
+                if (crossing.near_checks == frame.march.near_checks) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
             let is_near = ahead.distance < hit;

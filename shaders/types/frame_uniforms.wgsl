@@ -47,6 +47,8 @@ struct March {
     ball_growth: f32,
     // Radius of the ball that a cone treats as empty, over the safe step.
     ball_part: f32,
+    // Number of a hit's checks that must be within the hit distance.
+    near_checks: u32,
     // 1 if the estimate has false minima thinner than a pixel.
     checks_hits: u32,
     // Radius, per unit of distance to the point, of the cone about a shadow ray that a blocker has to fill.

@@ -41,8 +41,6 @@ pub const MIN_STEP_WITH_HIT_CHECK: f64 = 0.4;
 pub const CHECKED_THICKNESS: f64 = 0.5;
 /// Number of points along that length at which a hit is checked.
 pub const THICKNESS_CHECKS: u32 = 6;
-/// Number of these points that must be within the hit distance.
-pub const NEAR_CHECKS: u32 = 3;
 /// Halvings of the step that crossed the hit distance, to find the crossing.
 pub const HALVINGS: u32 = 5;
 
@@ -212,8 +210,7 @@ pub trait DistanceField: Send + Sync {
 
     /// The depth between `before` and `hit` at which the ray crosses the hit distance.
     ///
-    /// None unless the ray is within the hit distance at [`NEAR_CHECKS`] of [`THICKNESS_CHECKS`] points along the
-    /// [`CHECKED_THICKNESS`] hit distances behind. At `hit` it is within.
+    /// None unless the ray stays within the hit distance for [`CHECKED_THICKNESS`] hit distances. At `hit` it is within.
     fn lasting_hit(&self, ray: Ray, cone: f64, [mut before, mut hit]: [f64; 2]) -> Option<f64> {
         let is_near = |depth: f64| self.distance(ray.at(depth)) <= cone * depth;
         for _ in 0..HALVINGS {
@@ -223,8 +220,7 @@ pub trait DistanceField: Send + Sync {
         let place = |k: u32| {
             hit * (1.0 + cone * CHECKED_THICKNESS * f64::from(k) / f64::from(THICKNESS_CHECKS))
         };
-        let near = (1..=THICKNESS_CHECKS).filter(|k| is_near(place(*k))).count();
-        (near >= NEAR_CHECKS as usize).then_some(hit)
+        (1..=THICKNESS_CHECKS).all(|k| is_near(place(k))).then_some(hit)
     }
 
     /// The depth at which a ray comes closest to the surface.

@@ -272,7 +272,6 @@ fn host_constants_match_their_wgsl_twins() {
         ("MIN_STEP_WITH_HIT_CHECK", march::MIN_STEP_WITH_HIT_CHECK),
         ("CHECKED_THICKNESS", march::CHECKED_THICKNESS),
         ("THICKNESS_CHECKS", whole(march::THICKNESS_CHECKS)),
-        ("NEAR_CHECKS", whole(march::NEAR_CHECKS)),
         ("HALVINGS", whole(march::HALVINGS)),
         ("HISTOGRAM_BINS", report::HISTOGRAM_BINS as f64),
         ("HISTOGRAM_LOW_STOPS", report::HISTOGRAM_LOW_STOPS),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::March;
 use crate::{
-    formula::{MarchPolicy, StepLimits},
+    formula::{MarchPolicy, StepLimits, march::THICKNESS_CHECKS},
     fractal::FractalModel,
     render::{Region, space::RenderSpace},
     scene::Scene,
@@ -23,6 +23,12 @@ const MARCH_STEPS: u32 = 1024;
 
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
+
+/// Number of a hit's [`THICKNESS_CHECKS`] that must be within the hit distance in views about an anchor.
+///
+/// In dust the estimate has false maxima as thin as its false minima. Plain views need all checks: rays pass the false minima
+/// of silhouettes, some of which are as wide as three.
+const NEAR_CHECKS_OF_DEEP_RAYS: u32 = 3;
 
 /// Growth of balls in views whose steps are bounds in every direction.
 const UNLIMITED_GROWTH: f32 = 1e9;
@@ -60,6 +66,7 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
         relaxation: policy.relaxation,
         ball_growth: UNLIMITED_GROWTH,
         ball_part: policy.ball_part,
+        near_checks: if is_deep { NEAR_CHECKS_OF_DEEP_RAYS } else { THICKNESS_CHECKS },
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,

@@ -96,6 +96,8 @@ host_shared! {
         ball_growth: f32,
         /// Radius of the ball that a cone treats as empty, over the safe step.
         ball_part: f32,
+        /// Number of a hit's checks that must be within the hit distance.
+        near_checks: u32,
         /// 1 if the estimate has false minima.
         checks_hits: u32,
         /// Radius of a shadow ray's cone, per unit of distance to the point.

@@ -3,7 +3,7 @@
 use mandelight::{
     formula::{
         mandelbulb::Mandelbulb,
-        march::{CHECKED_THICKNESS, MarchPolicy, NEAR_CHECKS, THICKNESS_CHECKS},
+        march::{CHECKED_THICKNESS, MarchPolicy, THICKNESS_CHECKS},
     },
     scene::Fractal,
 };
@@ -27,7 +27,7 @@ fn the_docs_state_when_rays_hit_and_shadow_rays_are_blocked() {
     for sentence in [
         "a power below 4".to_owned(),
         format!(
-            "at {NEAR_CHECKS} of {THICKNESS_CHECKS} points along the {CHECKED_THICKNESS} hit distances behind"
+            "for {CHECKED_THICKNESS} hit distances along the ray, evaluated at {THICKNESS_CHECKS} points"
         ),
         format!("below {cone} times the distance to the point"),
         format!("or below {margin} hit distances of the point"),

@@ -96,13 +96,13 @@ fn fine_march(fractal: &Mandelbulb, ray: Ray, cone: f64) -> Option<f64> {
     None
 }
 
-/// Is the ray near at half of six points along half a cone radius behind `depth`, if that matters?
+/// Is the ray still near half a cone radius behind `depth`, and all the way there, if that matters?
 fn lasts(estimator: &Estimator, ray: Ray, cone: f64, depth: f64) -> bool {
     let is_near = |part: u32| {
         let place = depth * (1.0 + cone * f64::from(part) / 12.0);
         estimator.distance(ray.at(place)) <= cone * place
     };
-    !estimator.needs_hit_check() || (1..=6).filter(|part| is_near(*part)).count() >= 3
+    !estimator.needs_hit_check() || (1..=6).all(is_near)
 }
 
 /// Counts, of `count` rays, those that pass the surface altogether, and those that are

@@ -1,7 +1,7 @@
 //! Rays of a camera at any depth, marched in short steps.
 //!
 //! What counts as a hit is the document's: nearer than the pixel's cone is wide, times the detail
-//! setting; at powers below 4 also at half of six points along half of that length behind.
+//! setting; at powers below 4 for half of that length along the ray.
 
 use glam::{DVec2, DVec3};
 use mandelight::{
@@ -24,7 +24,7 @@ const HOLDS_ALL: f64 = 2.5;
 pub const FARTHEST: f64 = 1000.0;
 /// A ray that is still on its way after so many steps is as near as it will get.
 const MAX_STEPS: u32 = 20_000;
-/// At powers below 4 a ray must be near at half of these points for a hit: shares of the hit distance past the entry.
+/// At powers below 4, where a ray must be near for a hit: shares of the hit distance past the entry.
 const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 
 /// A picture's width and height in pixels.
@@ -156,8 +156,7 @@ impl<'a> SetView<'a> {
                 return Some(t);
             }
             let entry = entry(before, t, is_near);
-            let near = STILL.iter().filter(|share| is_near(entry + *share * hit)).count();
-            (near >= STILL.len() / 2).then_some(entry)
+            STILL.iter().all(|share| is_near(entry + share * hit)).then_some(entry)
         });
         match way {
             Way::Answered(depth) | Way::Creeping(depth) => Some(depth),

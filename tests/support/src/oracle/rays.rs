@@ -17,8 +17,8 @@ const HOLDS_ALL: f64 = 2.5;
 /// A ray that is still on its way after so many steps is as near as it will get.
 const MAX_STEPS: u32 = 20_000;
 
-/// At powers below 4 a ray passes what it is near to at less than half of these points: shares of the hit distance past
-/// the entry.
+/// At powers below 4 a ray passes what it is near to for less than half of the hit distance: shares of
+/// that at which it is asked.
 const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 /// Part of the hit distance that a step covers at least inside of what is passed.
 const MIN_STEP: f64 = 0.01;
@@ -79,8 +79,7 @@ pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
                 return Some(t);
             }
             let entry = entry(before, t, is_near);
-            let near = STILL.iter().filter(|share| is_near(entry + *share * hit));
-            if near.count() >= STILL.len() / 2 {
+            if STILL.iter().all(|share| is_near(entry + share * hit)) {
                 return Some(entry);
             }
         }
