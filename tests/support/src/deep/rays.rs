@@ -1,11 +1,13 @@
 //! Rays of a camera at any depth, marched in short steps.
 //!
 //! What counts as a hit is the document's: nearer than the pixel's cone is wide, times the detail
-//! setting; at powers below 4 for half of that length along the ray.
+//! setting; at powers below 4 for half of that length along the ray, in views about an anchor at half of the points there.
 
 use glam::{DVec2, DVec3};
 use mandelight::{
     formula::mandelbulb::Mandelbulb,
+    fractal::FractalModel,
+    render::{Region, space::wants_anchor},
     scene::{Camera, Fractal, Precise, Scene},
 };
 
@@ -47,18 +49,23 @@ pub struct SetView<'a> {
     scene: &'a Scene,
     eye: Point,
     unit: f64,
+    /// How many of the points of [`STILL`] must be near.
+    near_points: usize,
 }
 
 impl<'a> SetView<'a> {
     /// Looks at `scene` with orbits of up to `iterations` steps.
     pub fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
         let position = &scene.camera.position.0;
+        let model = FractalModel::new(&scene.fractal);
+        let has_anchor = wants_anchor(&model, scene, Region::whole(size));
         Self {
             set: Set::new(&Mandelbulb::of(&scene.fractal), iterations),
             size,
             scene,
             eye: position.each_ref().map(|v: &Precise| Real::parse(&v.to_string())),
             unit: scene.camera.view_unit(),
+            near_points: if has_anchor { STILL.len() / 2 } else { STILL.len() },
         }
     }
 
@@ -156,7 +163,8 @@ impl<'a> SetView<'a> {
                 return Some(t);
             }
             let entry = entry(before, t, is_near);
-            STILL.iter().all(|share| is_near(entry + share * hit)).then_some(entry)
+            let near = STILL.iter().filter(|share| is_near(entry + *share * hit)).count();
+            (near >= self.near_points).then_some(entry)
         });
         match way {
             Way::Answered(depth) | Way::Creeping(depth) => Some(depth),
