@@ -48,7 +48,7 @@ const NEAR_ENOUGH: f64 = 1e6;
 /// Depth of the farthest usable hit, over the distance to the pivot.
 ///
 /// If the nearest hit is farther, all rays have passed dust near the eye, or the pivot is in the open. An anchor as near as
-/// the pivot is as good for what is far away; the estimate at the eye, which may be thousands of times the distance, is not asked.
+/// the pivot draws what is far away as well.
 const MAX_HIT_DEPTH: f64 = 100.0;
 /// Rounding of the anchor's position, as a part of its depth: its exact position does not matter.
 const GRAIN: f64 = 1e-12;
@@ -81,8 +81,9 @@ struct RayMarch {
     ray: u32,
     steps: u32,
     depth: f64,
-    /// Distance estimate at the eye.
-    away: f64,
+    /// The distance estimate at the eye, or the distance to the pivot if that is less: in dust and in Julia sets the
+    /// estimate may be thousands of times the distance.
+    near: f64,
     /// The ray's closest approach to a surface that it has not passed yet.
     closest: Option<Approach>,
     /// The way to a surface that the ray has passed.
@@ -171,10 +172,10 @@ impl Search {
                 if rays.step(&self.camera, self.aspect) {
                     return None;
                 }
-                let unit = self.camera.view_unit();
-                let hit = rays.nearest.filter(|way| way.length() <= MAX_HIT_DEPTH * unit);
+                let far = MAX_HIT_DEPTH * self.camera.view_unit();
+                let hit = rays.nearest.filter(|way| way.length() <= far);
                 // With no surface near enough, a point in front of the eye is as good an anchor as any.
-                let way = hit.unwrap_or(rays.away.min(unit) * self.camera.forward());
+                let way = hit.unwrap_or(rays.near * self.camera.forward());
                 let anchor = self.camera.position.moved_by(way, GRAIN * way.length());
                 match begun(&self.fractal, &anchor) {
                     Some(steps) => Stage::Anchor(Some(steps)),
@@ -239,7 +240,7 @@ impl RayMarch {
             ray: 0,
             steps: 0,
             depth: 0.0,
-            away,
+            near: away.min(camera.view_unit()),
             closest: None,
             projection: None,
             nearest: None,
@@ -276,9 +277,8 @@ impl RayMarch {
             if is_last {
                 return self.next_ray();
             }
-            // The depth alone would let no step grow at the eye. In Julia sets the estimate there may be thousands of
-            // times the distance.
-            let leap = LEAP * self.depth.max(LEAP * self.away.min(camera.view_unit()));
+            // The depth alone would let no step grow at the eye.
+            let leap = LEAP * self.depth.max(LEAP * self.near);
             self.depth += estimate.step.max((0.25 * estimate.distance).min(leap));
         }
         true

@@ -24,10 +24,10 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Number of a hit's [`THICKNESS_CHECKS`] that must be within the hit distance in views about an anchor.
+/// Checks of a hit that must be within the hit distance, in views about an anchor.
 ///
-/// In dust the estimate has false maxima as thin as its false minima. Plain views need all checks: rays pass the false minima
-/// of silhouettes, some of which are as wide as three.
+/// In dust the estimate has false maxima as thin as its false minima. Plain views need all [`THICKNESS_CHECKS`]: with three, rays
+/// stop at the false minima of silhouettes.
 const NEAR_CHECKS_OF_DEEP_RAYS: u32 = 3;
 
 /// Growth of balls in views whose steps are bounds in every direction.
