@@ -242,6 +242,7 @@ impl<'a> PassRunner<'a> {
             first_workgroup,
             workgroups: batch.min(all - first_workgroup),
             kept: KeptPixels::default(),
+            part: None,
         })
     }
 

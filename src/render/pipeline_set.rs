@@ -188,6 +188,7 @@ fn trace(points: Points, from: Stage) -> Work {
         first_workgroup: 0,
         workgroups: 0,
         kept: KeptPixels::default(),
+        part: None,
     })
 }
 

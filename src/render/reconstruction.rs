@@ -55,6 +55,7 @@ mod tests {
             first_workgroup: 0,
             workgroups: 1,
             kept: KeptPixels::default(),
+            part: None,
         })
     }
 

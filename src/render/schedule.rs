@@ -7,7 +7,9 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `traces` | the next run of workgroups, and its parts |
 //! | `piece_size` | how much a refining piece computes |
+//! | `division` | in how many parts a long piece is submitted |
 //! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
 //! | `interface_frames` | room for frames of the interface |
@@ -23,6 +25,7 @@ use super::{lattice::COARSEST, region::Overlap};
 mod adaptation;
 mod completion;
 mod cost;
+mod division;
 mod gbuffer_validity;
 mod interface_frames;
 mod piece_size;
@@ -30,6 +33,7 @@ mod plan;
 mod point_selection;
 mod progress;
 mod rate;
+mod traces;
 mod types;
 mod work;
 
@@ -287,7 +291,10 @@ impl Schedule {
         }
         let work = self.choose(now_secs)?;
         let expected_ms = match work {
-            Work::Trace(trace) => self.cost.expected_ms(trace.job(), phase, trace.samples()),
+            Work::Trace(trace) => {
+                let whole_ms = self.cost.expected_ms(trace.job(), phase, trace.samples());
+                whole_ms / f64::from(trace.parts())
+            }
             Work::Display(_) => self.cost.display_ms(),
         };
         self.in_flight.push(Piece { phase, arithmetic: self.cost.arithmetic, expected_ms });
@@ -431,32 +438,6 @@ impl Schedule {
             adapt,
             kept: self.progress.kept_pixels(Points::Level(level)),
         })
-    }
-
-    fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
-        let job = self.progress.job(points);
-        let kept = self.progress.kept_pixels(points);
-        let total = points.grid(self.progress.size_px).workgroups();
-        let wanted = match self.phase() {
-            // With its display an opening makes the two pieces in flight, so that every displayed
-            // frame can have one.
-            Phase::Opening | Phase::Jump => MAX_PIECE_WORKGROUPS,
-            Phase::Refining => {
-                let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
-                let are_merged = self.in_flight.are_merged();
-                self.piece_sizes.next(aim_ms, &self.cost, job, kept, are_merged)
-            }
-        };
-        let workgroups = wanted.min(total - first_workgroup);
-        let next = first_workgroup + workgroups;
-        if next < total {
-            let is_filmed = self.progress.advance(points, next);
-            self.is_display_stale |= is_filmed && self.pace == Pace::Interactive;
-        } else {
-            self.is_display_stale = self.progress.complete(points);
-        }
-        let Job { from, lights } = job;
-        Trace { points, from, lights, first_workgroup, workgroups, kept }
     }
 
     /// The state of the schedule at `now_secs`.

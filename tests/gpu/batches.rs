@@ -1,5 +1,6 @@
-//! Batches of work: their size changes nothing in a picture.
+//! Batches of work, and parts of a batch: their sizes change nothing in a picture.
 
+use glam::DVec3;
 use mandelight::{
     gpu::readback::Readback,
     render::{
@@ -11,7 +12,7 @@ use mandelight::{
         targets::Targets,
         uniforms::Inputs,
     },
-    scene::{IntegratorKind, RigKind, Scene},
+    scene::{IndirectKind, IntegratorKind, PointLight, RigKind, Scene},
 };
 use mandelight_test_support::device::pipelines;
 
@@ -19,8 +20,8 @@ use mandelight_test_support::device::pipelines;
 const SIZE: [u32; 2] = [640, 512];
 
 /// The film after the centre samples and two more of each pixel. The batches are as large as the work from the sample
-/// `from` on; they stay as they are without one.
-fn film(scene: &Scene, from: Option<u32>) -> (Vec<Vec<u8>>, Vec<u32>) {
+/// `from` on; they stay as they are without one. Each is submitted in so many `parts`.
+fn film(scene: &Scene, from: Option<u32>, parts: u32) -> (Vec<Vec<u8>>, Vec<u32>) {
     let pipelines = pipelines();
     let gpu = &pipelines.gpu;
     let region = Region::whole(SIZE);
@@ -47,10 +48,11 @@ fn film(scene: &Scene, from: Option<u32>) -> (Vec<Vec<u8>>, Vec<u32>) {
         {
             (integrator.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
         }
-        for batch in Work::Trace(trace).batches(targets.batch_workgroups) {
+        let batches = Work::Trace(trace).batches(targets.batch_workgroups);
+        for part in batches.flat_map(|batch| parts_of(batch, parts)) {
             let mut recorder =
                 Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
-            frame::record(integrator, &mut recorder, batch);
+            frame::record(integrator, &mut recorder, part);
             gpu.queue.submit([recorder.finish()]);
         }
         sizes.push(targets.batch_workgroups);
@@ -61,6 +63,44 @@ fn film(scene: &Scene, from: Option<u32>) -> (Vec<Vec<u8>>, Vec<u32>) {
     (buffers.map(read).to_vec(), sizes)
 }
 
+fn parts_of(batch: Work, count: u32) -> Vec<Work> {
+    let Work::Trace(trace) = batch else { panic!("{batch:?} is no trace") };
+    (0..count).map(|index| Work::Trace(trace.part(index, count))).collect()
+}
+
+fn assert_same(found: &[Vec<u8>], expected: &[Vec<u8>], name: &str) {
+    for (buffer, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let differing = found.iter().zip(expected).filter(|(a, b)| a != b).count();
+        assert_eq!((found.len(), differing), (expected.len(), 0), "{name}, {buffer}");
+    }
+}
+
+/// Lights of both kinds, one with a soft shadow, all of which cast.
+fn with_six_lights() -> Scene {
+    let mut scene = Scene::default();
+    scene.lights.environment[0].size_deg = 20.0;
+    let at = |position| PointLight {
+        position: DVec3::from_array(position).into(),
+        ..Default::default()
+    };
+    let missing = 6 - scene.lights.len();
+    scene.lights.point.extend((0..missing).map(|index| at([index as f64, -2.0, 1.0])));
+    scene
+}
+
+#[test]
+fn parts_draw_the_same_picture() {
+    for indirect in [IndirectKind::Off, IndirectKind::Horizon] {
+        let mut scene = with_six_lights();
+        scene.indirect.kind = indirect;
+        let (expected, _) = film(&scene, None, 1);
+        for parts in [2, 5] {
+            let (found, _) = film(&scene, None, parts);
+            assert_same(&found, &expected, &format!("{parts} parts, {indirect:?}"));
+        }
+    }
+}
+
 #[test]
 fn larger_batches_draw_the_same_picture() {
     let direct = Scene::default();
@@ -68,23 +108,16 @@ fn larger_batches_draw_the_same_picture() {
     (traced.integrator.kind, traced.integrator.bounces) = (IntegratorKind::Path, 2);
     traced.lights.rig.kind = RigKind::Sky;
     for (name, scene) in [("direct light", direct), ("light paths", traced)] {
-        let (expected, small) = film(&scene, None);
+        let (expected, small) = film(&scene, None, 1);
         assert_eq!(small, [BATCH_WORKGROUPS; 3], "{name}");
         for from in 0..3 {
-            let (found, sizes) = film(&scene, Some(from));
+            let (found, sizes) = film(&scene, Some(from), 1);
             let has_grown = sizes
                 .iter()
                 .zip(0..)
                 .all(|(&size, sample)| (size >= 2 * BATCH_WORKGROUPS) == (sample >= from));
             assert!(has_grown, "{name}: {sizes:?} from {from}");
-            for (buffer, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                let differing = found.iter().zip(expected).filter(|(a, b)| a != b).count();
-                assert_eq!(
-                    (found.len(), differing),
-                    (expected.len(), 0),
-                    "{name}, {buffer}, {from}"
-                );
-            }
+            assert_same(&found, &expected, &format!("{name} from {from}"));
         }
     }
 }

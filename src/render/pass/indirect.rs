@@ -17,7 +17,8 @@ pub const PASS: Pass = Pass {
     modes: ONE_MODE,
     record: Record::Trace {
         when: |recorder, trace| {
-            trace.from == Stage::Indirect || computes_direct_light(recorder, trace)
+            trace.shades()
+                && (trace.from == Stage::Indirect || computes_direct_light(recorder, trace))
         },
         record,
     },

@@ -20,7 +20,9 @@ pub const PASS: Pass = Pass {
     modes: &[&[("SINGLE", 1)], &[("SINGLE", 0)]],
     record: Record::Trace {
         when: |recorder, trace| {
-            trace.from <= Stage::Shade && !indirect::computes_direct_light(recorder, trace)
+            trace.from <= Stage::Shade
+                && trace.shades()
+                && !indirect::computes_direct_light(recorder, trace)
         },
         record,
     },

@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 
 use super::{
     cost::Cost,
+    division::Division,
     interface_frames::InterfaceFrames,
     types::{Arithmetic, Phase},
     work::{Trace, Work},
@@ -18,6 +19,13 @@ use super::{
 ///
 /// Relative to its expected time. Merged completions share their time.
 const MERGED_SHARE: f64 = 0.05;
+
+/// Largest part of the last completions that may be merged for others to tell what their own piece took: a frame of the
+/// interface can take the time of the piece beside it.
+const MOST_MERGED: f64 = 0.2;
+
+/// Part that the latest completion has in the mean of the last ones.
+const LATEST_SHARE: f64 = 1.0 / 32.0;
 
 /// What was expected of a piece in flight.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +43,10 @@ pub struct Piece {
 pub struct InFlight {
     pieces: VecDeque<Piece>,
     are_merged: bool,
+    /// Part of the last completions that arrived together with the one before them, 0 to 1.
+    merged_share: f64,
+    /// Time and estimated time of the parts so far of a trace that is submitted in parts, milliseconds.
+    parts_ms: [f64; 2],
 }
 
 /// A piece that has finished.
@@ -79,6 +91,11 @@ impl InFlight {
         self.are_merged
     }
 
+    /// Whether most completions of late have told what their own piece took.
+    pub fn are_mostly_apart(&self) -> bool {
+        self.merged_share < MOST_MERGED
+    }
+
     /// Removes finished pieces and frames, and learns what they cost.
     ///
     /// `finished`: pieces and frames of the interface (none), in order, each with the GPU time since the completion before
@@ -99,12 +116,37 @@ impl InFlight {
             };
             // A piece that was never in flight has no estimate to compare with.
             let Some(piece) = self.pieces.pop_front() else { continue };
-            completions.push(Completion { work, piece, busy_ms });
+            let completion = Completion { work, piece, busy_ms };
+            let is_merged = f64::from(u8::from(completion.is_merged()));
+            self.merged_share += (is_merged - self.merged_share) * LATEST_SHARE;
+            completions.extend(self.with_parts(completion, &mut cost.division));
         }
         for group in completions.chunk_by(|_, next| next.is_merged()) {
             self.are_merged |= group.len() > 1;
             learn(cost, group);
         }
+    }
+
+    /// A completion, with the times of the parts before it if it is a part; none before the last part.
+    ///
+    /// Costs are those of whole traces: the size of pieces does not depend on their parts.
+    fn with_parts(
+        &mut self,
+        completion: Completion,
+        division: &mut Division,
+    ) -> Option<Completion> {
+        let Work::Trace(Trace { part: Some(part), .. }) = completion.work else {
+            return Some(completion);
+        };
+        let before = if part.index == 0 { [0.0; 2] } else { self.parts_ms };
+        let Completion { work, piece, busy_ms } = completion;
+        let [busy_ms, expected_ms] = [before[0] + busy_ms, before[1] + piece.expected_ms];
+        self.parts_ms = [busy_ms, expected_ms];
+        if part.index + 1 < part.count {
+            return None;
+        }
+        let busy_ms = division.learn(part.count, busy_ms);
+        Some(Completion { work, piece: Piece { expected_ms, ..piece }, busy_ms })
     }
 }
 

@@ -12,6 +12,7 @@
 //! The integrator's [`Plan`] says how many rays a sample counts as.
 
 use super::{
+    division::Division,
     plan::{Plan, SampleCost, WorkKind},
     rate::{CostHistory, Rate},
     types::{Arithmetic, Phase},
@@ -22,7 +23,7 @@ use crate::render::lattice::WORKGROUP_THREADS;
 /// Fewest workgroups of a piece: two can be halved.
 ///
 /// Pieces of one workgroup each can't separate the fixed cost from the cost of rays.
-const MIN_WORKGROUPS: f64 = 2.0;
+pub const MIN_WORKGROUPS: u32 = 2;
 
 /// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.
 const MAX_INTERFACE_MS: f64 = 200.0;
@@ -56,6 +57,8 @@ pub struct Cost {
     histories: [CostHistory; KINDS],
     /// How kernels raise powers from now on.
     pub arithmetic: Arithmetic,
+    /// What parts of pieces cost.
+    pub division: Division,
     display_ms: f64,
     /// Time of the last display alone.
     last_display_ms: f64,
@@ -83,6 +86,7 @@ impl Cost {
             plan,
             histories: Default::default(),
             arithmetic: Arithmetic::default(),
+            division: Division::default(),
             display_ms: 0.0,
             last_display_ms: f64::INFINITY,
             interface_ms: 0.0,
@@ -106,6 +110,11 @@ impl Cost {
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
     pub fn set_casting(&mut self, casting: u64) {
         self.casting = casting;
+    }
+
+    /// Number of a job's lights that have shadow rays.
+    pub fn casting(&self, job: Job) -> u32 {
+        (job.lights & self.casting).count_ones()
     }
 
     /// What a job costs for each of its samples.
@@ -190,7 +199,7 @@ impl Cost {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_sample;
-        (rate.rays(aim_ms) / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
+        (rate.rays(aim_ms) / workgroup).clamp(MIN_WORKGROUPS.into(), 1e9) as u32
     }
 
     /// Whether an opening fits a budget, with its display and the work in flight.

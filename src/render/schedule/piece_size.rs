@@ -32,6 +32,7 @@ pub fn aim_ms(pace: Pace, budget_ms: f64) -> f64 {
 pub struct PieceSizes {
     /// Number of pieces so far, modulo 2³².
     issued: u32,
+    is_half: bool,
 }
 
 impl PieceSizes {
@@ -53,7 +54,12 @@ impl PieceSizes {
         // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
         // completions are of two pieces, so that only every third piece makes pairs of two sizes.
         self.issued = self.issued.wrapping_add(1);
-        let period = if are_merged { 3 } else { 2 };
-        if self.issued.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
+        self.is_half = self.issued.is_multiple_of(if are_merged { 3 } else { 2 });
+        if self.is_half { largest.div_ceil(2) } else { largest }
+    }
+
+    /// Whether the last piece is half as large as others.
+    pub fn is_half(&self) -> bool {
+        self.is_half
     }
 }

@@ -7,7 +7,7 @@ use super::{
     gbuffer_validity::GBufferValidity,
     plan::Plan,
     types::Stale,
-    work::{Job, KeptPixels, Points, Stage},
+    work::{Job, KeptPixels, Points, Stage, Trace},
 };
 use crate::render::region::Overlap;
 
@@ -19,6 +19,15 @@ struct ReusedPixels {
     samples: u32,
     /// Whether the centre samples have the visibility of the lights that shine.
     has_visibility: bool,
+}
+
+/// What comes next of a trace that is submitted in parts.
+#[derive(Clone, Copy, Debug)]
+struct NextPart {
+    /// All parts together.
+    whole: Trace,
+    index: u32,
+    count: u32,
 }
 
 /// What a picture keeps of the one before it, of another width.
@@ -53,6 +62,8 @@ pub struct Progress {
     pub samples_done: u32,
     /// The points under way and the next workgroup to submit.
     pub under_way: Option<(Points, u32)>,
+    /// The next part of the next workgroups, if these are submitted in parts.
+    next_part: Option<NextPart>,
     /// Whether a filled preview is on the film while pixels are under way.
     pub is_filled: bool,
     /// The pixels that are not computed.
@@ -74,6 +85,7 @@ impl Progress {
             indirect_shaded: None,
             samples_done: 0,
             under_way: None,
+            next_part: None,
             is_filled: false,
             reused: None,
             awaits_light: false,
@@ -171,6 +183,7 @@ impl Progress {
         self.indirect_shaded = None;
         self.samples_done = 0;
         self.under_way = None;
+        self.next_part = None;
         self.is_filled = false;
     }
 
@@ -246,6 +259,24 @@ impl Progress {
             Points::Indirect(_) | Points::Samples { .. } => true,
         };
         is_filmed && self.filmed().is_some()
+    }
+
+    /// Begins to submit `whole` in so many parts, if any: returns the first one.
+    pub fn divide(&mut self, whole: Trace, parts: Option<u32>) -> Trace {
+        let Some(count) = parts else { return whole };
+        self.under_way = Some((whole.points, whole.first_workgroup));
+        self.begin_part(NextPart { whole, index: 0, count })
+    }
+
+    /// Takes the next part of the workgroups that are submitted in parts; none if there are none.
+    pub fn take_part(&mut self) -> Option<Trace> {
+        self.next_part.take().map(|next| self.begin_part(next))
+    }
+
+    fn begin_part(&mut self, NextPart { whole, index, count }: NextPart) -> Trace {
+        let part = whole.part(index, count);
+        self.next_part = (!part.shades()).then_some(NextPart { whole, index: index + 1, count });
+        part
     }
 
     /// The stage that points start with, and the lights toward which rays are marched.

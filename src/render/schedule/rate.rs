@@ -58,9 +58,11 @@ const OTHER_VIEW: f64 = 3.0;
 
 /// One piece of work.
 #[derive(Clone, Copy, Debug)]
-struct Measurement {
-    rays: f64,
-    ms: f64,
+pub struct Measurement {
+    /// Its rays, or what else it consists of.
+    pub rays: f64,
+    /// Its time, milliseconds.
+    pub ms: f64,
 }
 
 impl Measurement {
@@ -211,7 +213,8 @@ impl CostHistory {
     }
 }
 
-fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurement) {
+/// Adds a measurement to the last `length` ones.
+pub fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurement) {
     if window.len() == length {
         window.pop_front();
     }
@@ -219,7 +222,7 @@ fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurem
 }
 
 /// The fixed time and the time of a ray: the line whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
-fn line(pieces: &VecDeque<Measurement>) -> Option<(f64, f64)> {
+pub fn line(pieces: &VecDeque<Measurement>) -> Option<(f64, f64)> {
     let slopes = pieces.iter().enumerate().flat_map(|(index, a)| {
         let others = pieces.iter().take(index).filter(|b| b.rays != a.rays);
         others.map(|b| (a.ms - b.ms) / (a.rays - b.rays))

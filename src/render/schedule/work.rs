@@ -118,6 +118,17 @@ impl KeptPixels {
     }
 }
 
+/// One of the parts that march rays to some of a trace's lights each, in order; the last one shades the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// 0 for the first part.
+    pub index: u32,
+    /// Number of parts, at least 1.
+    pub count: u32,
+    /// What all parts together do.
+    pub whole: Job,
+}
+
 /// A run of workgroups over some sample points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
@@ -133,13 +144,39 @@ pub struct Trace {
     pub workgroups: u32,
     /// The pixels that are not computed.
     pub kept: KeptPixels,
+    /// Which part of the samples' lights it is; none for all of them.
+    pub part: Option<Part>,
 }
 
 impl Trace {
     /// All of `points`, in a region of `size_px`.
     pub fn whole(points: Points, from: Stage, lights: u64, size_px: [u32; 2]) -> Self {
         let workgroups = points.grid(size_px).workgroups();
-        Self { points, from, lights, first_workgroup: 0, workgroups, kept: KeptPixels::default() }
+        let kept = KeptPixels::default();
+        Self { points, from, lights, first_workgroup: 0, workgroups, kept, part: None }
+    }
+
+    /// Part `index` of `count`, each with about as many lights. Later parts find depths and normals in the G-buffer.
+    pub fn part(self, index: u32, count: u32) -> Self {
+        let lights = self.lights.count_ones();
+        let [first, end] = [index, index + 1].map(|index| (lights * index / count) as usize);
+        let bits = (0..u64::BITS).filter(|bit| self.lights >> bit & 1 == 1);
+        Self {
+            from: if index == 0 { self.from } else { Stage::Shadow },
+            lights: bits.skip(first).take(end - first).fold(0, |lights, bit| lights | 1 << bit),
+            part: Some(Part { index, count, whole: self.job() }),
+            ..self
+        }
+    }
+
+    /// Whether its samples get their light: all of their lights' rays are marched then.
+    pub fn shades(&self) -> bool {
+        self.part.is_none_or(|part| part.index + 1 == part.count)
+    }
+
+    /// Number of parts that the trace is divided into.
+    pub fn parts(&self) -> u32 {
+        self.part.map_or(1, |part| part.count)
     }
 
     /// Parts of the trace that have at most so many workgroups, in order.
@@ -157,9 +194,9 @@ impl Trace {
         self.kept.computed(self.workgroups * WORKGROUP_THREADS)
     }
 
-    /// What is done for each of its points.
+    /// What is done for each of its points, by all parts.
     pub fn job(&self) -> Job {
-        Job { from: self.from, lights: self.lights }
+        self.part.map_or(Job { from: self.from, lights: self.lights }, |part| part.whole)
     }
 }
 
@@ -225,6 +262,7 @@ mod tests {
                 first_workgroup,
                 workgroups,
                 kept: KeptPixels::default(),
+                part: None,
             };
             let mut next = first_workgroup;
             for batch in Work::Trace(trace).batches(BATCH_WORKGROUPS) {
@@ -244,5 +282,25 @@ mod tests {
             kept: KeptPixels::default(),
         });
         assert_eq!(display.batches(BATCH_WORKGROUPS).collect::<Vec<_>>(), [display]);
+    }
+
+    #[test]
+    fn parts_march_to_each_light_once_and_shade_at_last() {
+        let whole = Trace::whole(Points::All, Stage::Normal, 0b1101_0110_1001, [100, 100]);
+        for count in 2..=7 {
+            let parts: Vec<_> = (0..count).map(|index| whole.part(index, count)).collect();
+            let lights = parts.iter().map(|part| part.lights);
+            assert_eq!(lights.clone().fold(0, |all, lights| all | lights), whole.lights);
+            let most = 7_u32.div_ceil(count);
+            assert!(lights.clone().all(|lights| (1..=most).contains(&lights.count_ones())));
+            assert_eq!(lights.map(u64::count_ones).sum::<u32>(), 7);
+            for (part, index) in parts.iter().zip(0..) {
+                let starts = if index == 0 { Stage::Normal } else { Stage::Shadow };
+                assert_eq!((part.from, part.shades()), (starts, index + 1 == count));
+                assert_eq!(part.job(), whole.job());
+                assert_eq!(part.workgroups, whole.workgroups);
+            }
+        }
+        assert!(whole.shades());
     }
 }

@@ -4,32 +4,42 @@ use super::*;
 
 const SMALL_PX: [u32; 2] = [160, 90];
 
-/// The time of the longest refining piece over that of a workgroup, and the time of the whole picture over the least possible.
-///
-/// `cores` workgroups run side by side, each for `workgroup_ms`; each piece takes `overhead_ms` more.
-fn longest_and_whole(cores: u32, workgroup_ms: f64, overhead_ms: f64) -> (f64, f64) {
-    let mut schedule = schedule_of_lights(Pace::Interactive, SMALL_PX);
+/// What a picture of 8 samples took.
+struct Took {
+    /// Times of the refining pieces, milliseconds, in order.
+    pieces_ms: Vec<f64>,
+    /// Time of the whole picture over the least possible.
+    whole: f64,
+}
+
+/// Draws a picture where `cores` workgroups run side by side, each for `workgroup_ms` with all of `lights`; each piece takes
+/// `overhead_ms` more.
+fn draw(cores: u32, workgroup_ms: f64, overhead_ms: f64, lights: u64) -> Took {
+    let mut schedule = Schedule::new(DIRECT.plan, Pace::Interactive, SMALL_PX);
+    schedule.set_lights(lights, lights);
     schedule.aim(16.0, 8);
-    let (mut now, mut longest_ms, mut workgroups) = (0.0, 0.0_f64, 0);
+    let share = |from, lights: u64| share_of_frame(from, lights.count_ones().into());
+    let (mut now, mut pieces_ms, mut workgroups) = (0.0, Vec::new(), 0);
     while let Some(work) = schedule.next(now) {
         let is_refining = schedule.status(now).shown;
         let ms = match work {
             Work::Trace(trace) => {
-                workgroups += trace.workgroups;
-                overhead_ms + f64::from(trace.workgroups.div_ceil(cores)) * workgroup_ms
+                workgroups += if trace.shades() { trace.workgroups } else { 0 };
+                let part = share(trace.from, trace.lights) / share(Stage::March, lights);
+                overhead_ms + f64::from(trace.workgroups.div_ceil(cores)) * workgroup_ms * part
             }
             Work::Display(_) => 1.0,
         };
         if is_refining {
-            longest_ms = longest_ms.max(ms);
+            pieces_ms.push(ms);
         }
         schedule.collect(&[(Some(work), ms)]);
         now += ms * 1e-3;
     }
     let status = schedule.status(now);
-    assert!(status.idle && status.samples_done == 8 && longest_ms > 0.0);
+    assert!(status.idle && status.samples_done == 8 && !pieces_ms.is_empty());
     let least_ms = f64::from(workgroups) / f64::from(cores) * workgroup_ms;
-    (longest_ms / workgroup_ms, now * 1e3 / least_ms)
+    Took { pieces_ms, whole: now * 1e3 / least_ms }
 }
 
 /// On two cores or more, pieces of one and of two workgroups take the same time, as if all of it were fixed.
@@ -38,13 +48,34 @@ fn workgroups_side_by_side_do_not_make_pieces_long() {
     for overhead in [0.0, 0.15] {
         for cores in [1, 2, 4, 16, 64] {
             for workgroup_ms in [20.0, 50.0, 100.0, 1000.0] {
-                let (longest, whole) =
-                    longest_and_whole(cores, workgroup_ms, overhead * workgroup_ms);
+                let Took { pieces_ms, whole } =
+                    draw(cores, workgroup_ms, overhead * workgroup_ms, 0b1);
+                let longest = pieces_ms.into_iter().fold(0.0, f64::max) / workgroup_ms;
                 let case = format!("{cores} of {workgroup_ms} ms, {overhead} more");
                 println!("{case}: the longest {longest:.2}, the picture {whole:.2}");
                 assert!(longest <= 2.0 + overhead + 1e-6, "{case}: a piece takes {longest} times");
                 assert!(whole < 2.2, "{case}: the picture takes {whole} times");
             }
+        }
+    }
+}
+
+/// Of the first pieces it is not known yet what a part costs beside its rays.
+const FIRST_PIECES: usize = 100;
+
+/// A workgroup's rays to 64 lights are many pieces of work.
+#[test]
+fn many_lights_are_marched_in_parts() {
+    for cores in [1, 2, 4, 16, 64] {
+        for workgroup_ms in [50.0, 100.0, 400.0] {
+            let Took { pieces_ms, whole } = draw(cores, workgroup_ms, 0.2, u64::MAX);
+            let longest_ms = pieces_ms.iter().skip(FIRST_PIECES).copied().fold(0.0, f64::max);
+            let case = format!("{cores} of {workgroup_ms} ms");
+            println!("{case}: the longest {longest_ms:.1} ms, the picture {whole:.2}");
+            // The shortest part of 400 ms takes 6 ms, the first one with camera rays more.
+            let most_ms = f64::max(22.0, 0.22 * workgroup_ms);
+            assert!(longest_ms < most_ms, "{case}: a piece takes {longest_ms} ms");
+            assert!(whole < 2.2, "{case}: the picture takes {whole} times");
         }
     }
 }

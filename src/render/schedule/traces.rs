@@ -1,0 +1,79 @@
+//! The next run of workgroups of the points under way.
+//!
+//! In: the points, what rays cost. Out: a [`Trace`], or one part of it.
+
+use super::{
+    Schedule,
+    cost::MIN_WORKGROUPS,
+    piece_size,
+    types::{Pace, Phase},
+    work::{BATCH_WORKGROUPS, Job, MAX_PIECE_WORKGROUPS, Points, Stage, Trace},
+};
+use crate::render::lattice::WORKGROUP_THREADS;
+
+/// How many times as long as a piece should take pieces may take whose lights are not divided.
+const UNDIVIDED: f64 = 1.5;
+
+impl Schedule {
+    /// The next piece of `points`, whose next workgroup is `first_workgroup`.
+    pub(super) fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
+        let part = self.progress.take_part().unwrap_or_else(|| {
+            let whole = self.next_workgroups(points, first_workgroup);
+            let parts = self.parts(&whole);
+            self.progress.divide(whole, parts)
+        });
+        if !part.shades() {
+            return part;
+        }
+        let next = first_workgroup + part.workgroups;
+        if next < points.grid(self.progress.size_px).workgroups() {
+            let is_filmed = self.progress.advance(points, next);
+            self.is_display_stale |= is_filmed && self.pace == Pace::Interactive;
+        } else {
+            self.is_display_stale = self.progress.complete(points);
+        }
+        part
+    }
+
+    /// All that the next piece of `points` computes.
+    fn next_workgroups(&mut self, points: Points, first_workgroup: u32) -> Trace {
+        let job = self.progress.job(points);
+        let kept = self.progress.kept_pixels(points);
+        let wanted = match self.phase() {
+            // With its display an opening makes the two pieces in flight, so that every displayed
+            // frame can have one.
+            Phase::Opening | Phase::Jump => MAX_PIECE_WORKGROUPS,
+            Phase::Refining => {
+                let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
+                let are_merged = self.in_flight.are_merged();
+                self.piece_sizes.next(aim_ms, &self.cost, job, kept, are_merged)
+            }
+        };
+        let total = points.grid(self.progress.size_px).workgroups();
+        let workgroups = wanted.min(total - first_workgroup);
+        let Job { from, lights } = job;
+        Trace { points, from, lights, first_workgroup, workgroups, kept, part: None }
+    }
+
+    /// The parts to submit `whole` in; none if its lights are not divided.
+    ///
+    /// They are while someone watches a picture refine, where even the fewest workgroups take too long. The buffers hold a
+    /// batch from one part to the next. Merged completions don't say what a part takes.
+    fn parts(&mut self, whole: &Trace) -> Option<u32> {
+        let is_seen = self.pace == Pace::Interactive && self.phase() == Phase::Refining;
+        let is_measured = self.in_flight.are_mostly_apart();
+        let has_shadows = (Stage::March..=Stage::Shadow).contains(&whole.from);
+        if !is_seen || !is_measured || !has_shadows || whole.workgroups > BATCH_WORKGROUPS {
+            return None;
+        }
+        let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
+        let fewest = MIN_WORKGROUPS * WORKGROUP_THREADS;
+        // A piece of half the size has as many parts as others: the cost of a part and of half a piece are told apart.
+        let largest = if self.piece_sizes.is_half() { 2 } else { 1 } * whole.samples();
+        let [fewest_ms, largest_ms] = [fewest, largest]
+            .map(|samples| self.cost.expected_ms(whole.job(), Phase::Refining, samples));
+        let most = self.cost.casting(whole.job());
+        (most > 1 && fewest_ms > UNDIVIDED * aim_ms)
+            .then(|| self.cost.division.next(most, largest_ms, aim_ms))
+    }
+}
