@@ -65,7 +65,7 @@ fn film(scene: &Scene, from: Option<u32>, parts: u32) -> (Vec<Vec<u8>>, Vec<u32>
 
 fn parts_of(batch: Work, count: u32) -> Vec<Work> {
     let Work::Trace(trace) = batch else { panic!("{batch:?} is no trace") };
-    (0..count).map(|index| Work::Trace(trace.part(index, count))).collect()
+    (0..count).map(|index| Work::Trace(trace.part(index, count, u64::MAX))).collect()
 }
 
 fn assert_same(found: &[Vec<u8>], expected: &[Vec<u8>], name: &str) {

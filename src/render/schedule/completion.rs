@@ -20,11 +20,11 @@ use super::{
 /// Relative to its expected time. Merged completions share their time.
 const MERGED_SHARE: f64 = 0.05;
 
-/// Largest part of the last completions that may be merged for others to tell what their own piece took: a frame of the
-/// interface can take the time of the piece beside it.
-const MOST_MERGED: f64 = 0.2;
+/// Largest share of merged completions among the last ones with which times of single pieces are reliable. Beside a frame of
+/// the interface, the time of a piece may be reported as that of another. Where all come in pairs, the share is a half.
+const MAX_MERGED: f64 = 0.35;
 
-/// Part that the latest completion has in the mean of the last ones.
+/// Weight of the latest completion in the mean of the last ones.
 const LATEST_SHARE: f64 = 1.0 / 32.0;
 
 /// What was expected of a piece in flight.
@@ -43,10 +43,10 @@ pub struct Piece {
 pub struct InFlight {
     pieces: VecDeque<Piece>,
     are_merged: bool,
-    /// Part of the last completions that arrived together with the one before them, 0 to 1.
+    /// Share of the last completions that arrived together with the one before them, 0 to 1.
     merged_share: f64,
-    /// Time and estimated time of the parts so far of a trace that is submitted in parts, milliseconds.
-    parts_ms: [f64; 2],
+    /// Time of the finished parts of a trace that is submitted in parts, milliseconds.
+    parts_ms: f64,
 }
 
 /// A piece that has finished.
@@ -91,9 +91,9 @@ impl InFlight {
         self.are_merged
     }
 
-    /// Whether most completions of late have told what their own piece took.
-    pub fn are_mostly_apart(&self) -> bool {
-        self.merged_share < MOST_MERGED
+    /// Whether so few completions of late were merged that their times are those of single pieces.
+    pub fn has_reliable_times(&self) -> bool {
+        self.merged_share < MAX_MERGED
     }
 
     /// Removes finished pieces and frames, and learns what they cost.
@@ -119,61 +119,51 @@ impl InFlight {
             let completion = Completion { work, piece, busy_ms };
             let is_merged = f64::from(u8::from(completion.is_merged()));
             self.merged_share += (is_merged - self.merged_share) * LATEST_SHARE;
-            completions.extend(self.with_parts(completion, &mut cost.division));
+            completions.push(completion);
         }
         for group in completions.chunk_by(|_, next| next.is_merged()) {
             self.are_merged |= group.len() > 1;
-            learn(cost, group);
+            self.learn(cost, group);
         }
     }
 
-    /// A completion, with the times of the parts before it if it is a part; none before the last part.
+    /// Learns from completions that arrived together.
+    fn learn(&mut self, cost: &mut Cost, group: &[Completion]) {
+        let sum = |value: fn(&Completion) -> f64| group.iter().map(value).sum::<f64>();
+        let (busy_ms, expected_ms) = (sum(|it| it.busy_ms), sum(|it| it.piece.expected_ms));
+        // Kinds of work share the time in proportion to their estimates.
+        let took_ms = |completion: &Completion| match group {
+            [_] => busy_ms,
+            _ => busy_ms * completion.piece.expected_ms / expected_ms,
+        };
+        // Traces share theirs equally, as if of one size: shares by estimate would only confirm it.
+        let traces: Vec<(Trace, Piece, f64)> = group
+            .iter()
+            .filter_map(|completion| match completion.work {
+                Work::Trace(trace) => Some((trace, completion.piece, took_ms(completion))),
+                Work::Display(_) => None,
+            })
+            .collect();
+        let mean = |values: f64| values / traces.len() as f64;
+        let samples = mean(traces.iter().map(|(trace, ..)| f64::from(trace.samples())).sum());
+        let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
+        for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
+            if let Some(ms) = self.whole_ms(trace, trace_ms, &mut cost.division) {
+                cost.traced(trace.job(), *phase, *arithmetic, samples, ms);
+            }
+        }
+        for completion in group.iter().filter(|it| matches!(it.work, Work::Display(_))) {
+            cost.displayed(took_ms(completion));
+        }
+    }
+
+    /// What a trace took as a whole, milliseconds: with the parts before it if it is a part; none before the last part.
     ///
     /// Costs are those of whole traces: the size of pieces does not depend on their parts.
-    fn with_parts(
-        &mut self,
-        completion: Completion,
-        division: &mut Division,
-    ) -> Option<Completion> {
-        let Work::Trace(Trace { part: Some(part), .. }) = completion.work else {
-            return Some(completion);
-        };
-        let before = if part.index == 0 { [0.0; 2] } else { self.parts_ms };
-        let Completion { work, piece, busy_ms } = completion;
-        let [busy_ms, expected_ms] = [before[0] + busy_ms, before[1] + piece.expected_ms];
-        self.parts_ms = [busy_ms, expected_ms];
-        if part.index + 1 < part.count {
-            return None;
-        }
-        let busy_ms = division.learn(part.count, busy_ms);
-        Some(Completion { work, piece: Piece { expected_ms, ..piece }, busy_ms })
-    }
-}
-
-/// Learns from completions that arrived together.
-fn learn(cost: &mut Cost, group: &[Completion]) {
-    let sum = |value: fn(&Completion) -> f64| group.iter().map(value).sum::<f64>();
-    let (busy_ms, expected_ms) = (sum(|it| it.busy_ms), sum(|it| it.piece.expected_ms));
-    // Kinds of work share the time in proportion to their estimates.
-    let took_ms = |completion: &Completion| match group {
-        [_] => busy_ms,
-        _ => busy_ms * completion.piece.expected_ms / expected_ms,
-    };
-    // Traces share theirs equally, as if of one size: shares by estimate would only confirm it.
-    let traces: Vec<(Trace, Piece, f64)> = group
-        .iter()
-        .filter_map(|completion| match completion.work {
-            Work::Trace(trace) => Some((trace, completion.piece, took_ms(completion))),
-            Work::Display(_) => None,
-        })
-        .collect();
-    let mean = |values: f64| values / traces.len() as f64;
-    let samples = mean(traces.iter().map(|(trace, ..)| f64::from(trace.samples())).sum());
-    let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
-    for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
-        cost.traced(trace.job(), *phase, *arithmetic, samples, trace_ms);
-    }
-    for completion in group.iter().filter(|it| matches!(it.work, Work::Display(_))) {
-        cost.displayed(took_ms(completion));
+    fn whole_ms(&mut self, trace: &Trace, ms: f64, division: &mut Division) -> Option<f64> {
+        let Some(part) = trace.part else { return Some(ms) };
+        self.parts_ms = ms + if part.index == 0 { 0.0 } else { self.parts_ms };
+        let is_last = part.index + 1 == part.count;
+        is_last.then(|| division.learn(part.count, self.parts_ms))
     }
 }

@@ -112,9 +112,9 @@ impl Cost {
         self.casting = casting;
     }
 
-    /// Number of a job's lights that have shadow rays.
-    pub fn casting(&self, job: Job) -> u32 {
-        (job.lights & self.casting).count_ones()
+    /// The lights that have shadow rays, by their visibility bits.
+    pub fn casting(&self) -> u64 {
+        self.casting
     }
 
     /// What a job costs for each of its samples.
@@ -132,6 +132,10 @@ impl Cost {
         busy_ms: f64,
     ) {
         if samples > 0.0 {
+            if phase == Phase::Jump {
+                // Pieces of views of other costs can't be compared.
+                self.division.forget();
+            }
             let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
             let history = &mut self.histories[history_index(kind, arithmetic)];
             history.learn(phase, samples * rays_of_sample, busy_ms.max(1e-3));

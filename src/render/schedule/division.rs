@@ -3,20 +3,25 @@
 //! In: what pieces of few and of many parts took. Out: the parts of the next one. Even the fewest workgroups may take longer
 //! than a piece should, with many lights most of it for shadow rays. Each part marches those to some of the lights, and
 //! between parts frames of the interface can be drawn. What a part costs beside its rays, in a browser mostly the latency of
-//! its completion, is found by trying: a long latency would make parts of a short piece take longer than the piece.
+//! its completion, its
+//! overhead, is found by trying: with a long latency, the parts of a piece take longer than the piece.
 
 use std::collections::VecDeque;
 
 use super::rate::{self, Measurement};
 
-/// Largest sum of what parts cost beside their rays, in the time of the rays.
-const MOST_OVERHEAD: f64 = 0.5;
+/// Largest overhead of all parts together, in the time of their rays.
+const MAX_OVERHEAD: f64 = 0.5;
 
-/// Pieces that the cost of a part is found from.
+/// Pieces that the overhead of a part is found from.
 const PIECES: usize = 32;
 
-/// One of so many pieces has twice as many parts as were tried. Odd: every second piece is half as large as the others.
+/// One of so many pieces is a trial, with another number of parts. Odd, so that trials are not all half as large as other
+/// pieces, as every second piece is.
 const TRIAL_PERIOD: u32 = 15;
+
+/// The same among the first [`PIECES`] of a view: one trial says little, since other rays take another time.
+const FIRST_TRIAL_PERIOD: u32 = 3;
 
 /// What pieces of few and of many parts took.
 #[derive(Clone, Debug, Default)]
@@ -33,32 +38,42 @@ impl Division {
     /// `whole_ms`: the expected time of the whole piece. `aim_ms`: what a piece should take.
     pub fn next(&mut self, most: u32, whole_ms: f64, aim_ms: f64) -> u32 {
         self.issued = self.issued.wrapping_add(1);
-        let wanted = self.wanted(whole_ms, aim_ms);
-        // Pieces of different numbers of parts separate the cost of a part from that of its rays.
-        let is_trial = self.issued % TRIAL_PERIOD == 1;
-        wanted.saturating_mul(if is_trial { 2 } else { 1 }).min(most)
+        let wanted = self.wanted(whole_ms, aim_ms).min(most);
+        let is_known = self.pieces.len() == PIECES;
+        let period = if is_known { TRIAL_PERIOD } else { FIRST_TRIAL_PERIOD };
+        if self.issued % period != 1 {
+            return wanted;
+        }
+        // Pieces of different numbers of parts separate the overhead of a part from the time of its rays.
+        if 2 * wanted <= most { 2 * wanted } else { (wanted / 2).max(1) }
     }
 
     /// The parts that are short enough and cost little beside their rays.
     fn wanted(&self, whole_ms: f64, aim_ms: f64) -> u32 {
-        let Some(part_ms) = self.part_ms() else { return 1 };
-        let rays_ms = whole_ms - part_ms;
-        let short_enough = rays_ms / (aim_ms - part_ms).max(0.1 * aim_ms);
+        let Some(overhead_ms) = self.overhead_ms() else { return 1 };
+        let rays_ms = whole_ms - overhead_ms;
+        let short_enough = rays_ms / (aim_ms - overhead_ms).max(0.1 * aim_ms);
         let tried = self.pieces.iter().map(|piece| piece.rays).fold(1.0, f64::max);
-        short_enough.ceil().min(MOST_OVERHEAD * rays_ms / part_ms).min(2.0 * tried).max(1.0) as u32
+        short_enough.ceil().min(MAX_OVERHEAD * rays_ms / overhead_ms).min(2.0 * tried).max(1.0)
+            as u32
     }
 
     /// Learns that a piece of so many parts took `ms`, all of them together. Returns what it would have taken undivided.
     pub fn learn(&mut self, parts: u32, ms: f64) -> f64 {
         let parts = f64::from(parts);
         rate::push(&mut self.pieces, PIECES, Measurement { rays: parts, ms });
-        let part_ms = self.part_ms().unwrap_or(0.0);
+        let overhead_ms = self.overhead_ms().unwrap_or(0.0);
         // Twice as many parts as are wanted cost as much as their rays, at most.
-        (ms - (parts - 1.0) * part_ms).max(0.5 * ms)
+        (ms - (parts - 1.0) * overhead_ms).max(0.5 * ms)
+    }
+
+    /// Forgets all pieces.
+    pub fn forget(&mut self) {
+        self.pieces.clear();
     }
 
     /// What a part costs beside its rays, milliseconds.
-    fn part_ms(&self) -> Option<f64> {
-        rate::line(&self.pieces).map(|(_, part_ms)| part_ms)
+    fn overhead_ms(&self) -> Option<f64> {
+        rate::line(&self.pieces).map(|(_, overhead_ms)| overhead_ms)
     }
 }

@@ -28,6 +28,8 @@ struct NextPart {
     whole: Trace,
     index: u32,
     count: u32,
+    /// The lights that cast shadows, by their visibility bits.
+    casting: u64,
 }
 
 /// What a picture keeps of the one before it, of another width.
@@ -261,11 +263,10 @@ impl Progress {
         is_filmed && self.filmed().is_some()
     }
 
-    /// Begins to submit `whole` in so many parts, if any: returns the first one.
-    pub fn divide(&mut self, whole: Trace, parts: Option<u32>) -> Trace {
-        let Some(count) = parts else { return whole };
+    /// Begins to submit `whole` in `count` parts: returns the first one. `casting`: the lights that cast shadows.
+    pub fn divide(&mut self, whole: Trace, count: u32, casting: u64) -> Trace {
         self.under_way = Some((whole.points, whole.first_workgroup));
-        self.begin_part(NextPart { whole, index: 0, count })
+        self.begin_part(NextPart { whole, index: 0, count, casting })
     }
 
     /// Takes the next part of the workgroups that are submitted in parts; none if there are none.
@@ -273,9 +274,10 @@ impl Progress {
         self.next_part.take().map(|next| self.begin_part(next))
     }
 
-    fn begin_part(&mut self, NextPart { whole, index, count }: NextPart) -> Trace {
-        let part = whole.part(index, count);
-        self.next_part = (!part.shades()).then_some(NextPart { whole, index: index + 1, count });
+    fn begin_part(&mut self, next: NextPart) -> Trace {
+        let NextPart { whole, index, count, casting } = next;
+        let part = whole.part(index, count, casting);
+        self.next_part = (!part.shades()).then_some(NextPart { index: index + 1, ..next });
         part
     }
 

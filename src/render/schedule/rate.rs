@@ -59,7 +59,7 @@ const OTHER_VIEW: f64 = 3.0;
 /// One piece of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Measurement {
-    /// Its rays, or what else it consists of.
+    /// Its rays, or its [parts](super::division).
     pub rays: f64,
     /// Its time, milliseconds.
     pub ms: f64,

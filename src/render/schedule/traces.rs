@@ -11,16 +11,18 @@ use super::{
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// How many times as long as a piece should take pieces may take whose lights are not divided.
-const UNDIVIDED: f64 = 1.5;
+/// Lights are divided where the smallest piece takes over so many times what a piece should take.
+const MIN_EXCESS: f64 = 1.5;
 
 impl Schedule {
     /// The next piece of `points`, whose next workgroup is `first_workgroup`.
     pub(super) fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let part = self.progress.take_part().unwrap_or_else(|| {
             let whole = self.next_workgroups(points, first_workgroup);
-            let parts = self.parts(&whole);
-            self.progress.divide(whole, parts)
+            match self.parts(&whole) {
+                Some(count) => self.progress.divide(whole, count, self.cost.casting()),
+                None => whole,
+            }
         });
         if !part.shades() {
             return part;
@@ -55,13 +57,13 @@ impl Schedule {
         Trace { points, from, lights, first_workgroup, workgroups, kept, part: None }
     }
 
-    /// The parts to submit `whole` in; none if its lights are not divided.
+    /// The parts to submit `whole` in, one of them where more don't pay; none where its lights need not be divided.
     ///
-    /// They are while someone watches a picture refine, where even the fewest workgroups take too long. The buffers hold a
-    /// batch from one part to the next. Merged completions don't say what a part takes.
+    /// Lights are divided while someone watches a picture refine, and only where even the smallest piece takes too long. The
+    /// buffers hold one batch from part to part. Merged completions don't say what a part takes.
     fn parts(&mut self, whole: &Trace) -> Option<u32> {
         let is_seen = self.pace == Pace::Interactive && self.phase() == Phase::Refining;
-        let is_measured = self.in_flight.are_mostly_apart();
+        let is_measured = self.in_flight.has_reliable_times();
         let has_shadows = (Stage::March..=Stage::Shadow).contains(&whole.from);
         if !is_seen || !is_measured || !has_shadows || whole.workgroups > BATCH_WORKGROUPS {
             return None;
@@ -72,8 +74,8 @@ impl Schedule {
         let largest = if self.piece_sizes.is_half() { 2 } else { 1 } * whole.samples();
         let [fewest_ms, largest_ms] = [fewest, largest]
             .map(|samples| self.cost.expected_ms(whole.job(), Phase::Refining, samples));
-        let most = self.cost.casting(whole.job());
-        (most > 1 && fewest_ms > UNDIVIDED * aim_ms)
+        let most = (whole.lights & self.cost.casting()).count_ones();
+        (most > 1 && fewest_ms > MIN_EXCESS * aim_ms)
             .then(|| self.cost.division.next(most, largest_ms, aim_ms))
     }
 }

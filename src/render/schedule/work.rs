@@ -156,14 +156,21 @@ impl Trace {
         Self { points, from, lights, first_workgroup: 0, workgroups, kept, part: None }
     }
 
-    /// Part `index` of `count`, each with about as many lights. Later parts find depths and normals in the G-buffer.
-    pub fn part(self, index: u32, count: u32) -> Self {
-        let lights = self.lights.count_ones();
+    /// Part `index` of `count`, each with about as many of the lights that cast shadows. The first part has all others, and
+    /// later parts find depths and normals in the G-buffer.
+    pub fn part(self, index: u32, count: u32, casting: u64) -> Self {
+        let casting = self.lights & casting;
+        let lights = casting.count_ones();
         let [first, end] = [index, index + 1].map(|index| (lights * index / count) as usize);
-        let bits = (0..u64::BITS).filter(|bit| self.lights >> bit & 1 == 1);
+        let bits = (0..u64::BITS).filter(|bit| casting >> bit & 1 == 1);
+        let (from, others) =
+            if index == 0 { (self.from, self.lights & !casting) } else { (Stage::Shadow, 0) };
         Self {
-            from: if index == 0 { self.from } else { Stage::Shadow },
-            lights: bits.skip(first).take(end - first).fold(0, |lights, bit| lights | 1 << bit),
+            from,
+            lights: bits
+                .skip(first)
+                .take(end - first)
+                .fold(others, |lights, bit| lights | 1 << bit),
             part: Some(Part { index, count, whole: self.job() }),
             ..self
         }
@@ -286,14 +293,16 @@ mod tests {
 
     #[test]
     fn parts_march_to_each_light_once_and_shade_at_last() {
-        let whole = Trace::whole(Points::All, Stage::Normal, 0b1101_0110_1001, [100, 100]);
+        let casting = 0b1101_0110_1001;
+        let whole = Trace::whole(Points::All, Stage::Normal, casting | 0b10010, [100, 100]);
         for count in 2..=7 {
-            let parts: Vec<_> = (0..count).map(|index| whole.part(index, count)).collect();
+            let parts: Vec<_> = (0..count).map(|index| whole.part(index, count, casting)).collect();
             let lights = parts.iter().map(|part| part.lights);
             assert_eq!(lights.clone().fold(0, |all, lights| all | lights), whole.lights);
+            assert_eq!(lights.clone().map(u64::count_ones).sum::<u32>(), 9, "each light once");
             let most = 7_u32.div_ceil(count);
-            assert!(lights.clone().all(|lights| (1..=most).contains(&lights.count_ones())));
-            assert_eq!(lights.map(u64::count_ones).sum::<u32>(), 7);
+            let of_parts = lights.map(|lights| (lights & casting).count_ones());
+            assert!(of_parts.clone().all(|lights| (1..=most).contains(&lights)));
             for (part, index) in parts.iter().zip(0..) {
                 let starts = if index == 0 { Stage::Normal } else { Stage::Shadow };
                 assert_eq!((part.from, part.shades()), (starts, index + 1 == count));
