@@ -132,10 +132,6 @@ impl Cost {
         busy_ms: f64,
     ) {
         if samples > 0.0 {
-            if phase == Phase::Jump {
-                // Pieces of views of other costs can't be compared.
-                self.division.forget();
-            }
             let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
             let history = &mut self.histories[history_index(kind, arithmetic)];
             history.learn(phase, samples * rays_of_sample, busy_ms.max(1e-3));

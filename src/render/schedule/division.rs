@@ -20,7 +20,7 @@ const PIECES: usize = 32;
 /// pieces, as every second piece is.
 const TRIAL_PERIOD: u32 = 15;
 
-/// The same among the first [`PIECES`] of a view: one trial says little, since other rays take another time.
+/// The same among the first [`PIECES`]: one trial says little, since other rays take another time.
 const FIRST_TRIAL_PERIOD: u32 = 3;
 
 /// What pieces of few and of many parts took.
@@ -65,11 +65,6 @@ impl Division {
         let overhead_ms = self.overhead_ms().unwrap_or(0.0);
         // Twice as many parts as are wanted cost as much as their rays, at most.
         (ms - (parts - 1.0) * overhead_ms).max(0.5 * ms)
-    }
-
-    /// Forgets all pieces.
-    pub fn forget(&mut self) {
-        self.pieces.clear();
     }
 
     /// What a part costs beside its rays, milliseconds.
