@@ -24,8 +24,11 @@ const MERGED_SHARE: f64 = 0.05;
 /// the interface, the time of a piece may be reported as that of another. Where all come in pairs, the share is a half.
 const MAX_MERGED: f64 = 0.35;
 
-/// Weight of the latest completion in the mean of the last ones.
-const LATEST_SHARE: f64 = 1.0 / 32.0;
+/// Completions that the share of merged ones is a mean of.
+const COMPLETIONS: u32 = 32;
+
+/// Fewest completions that show whether times are reliable.
+const FEWEST_COMPLETIONS: u32 = 8;
 
 /// What was expected of a piece in flight.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +46,9 @@ pub struct Piece {
 pub struct InFlight {
     pieces: VecDeque<Piece>,
     are_merged: bool,
-    /// Share of the last completions that arrived together with the one before them, 0 to 1.
+    /// Number of completions so far, at most [`COMPLETIONS`].
+    completions: u32,
+    /// Share of the last ones that arrived together with the one before them, 0 to 1.
     merged_share: f64,
     /// Time of the finished parts of a trace that is submitted in parts, milliseconds.
     parts_ms: f64,
@@ -93,7 +98,7 @@ impl InFlight {
 
     /// Whether so few completions of late were merged that their times are those of single pieces.
     pub fn has_reliable_times(&self) -> bool {
-        self.merged_share < MAX_MERGED
+        self.completions >= FEWEST_COMPLETIONS && self.merged_share < MAX_MERGED
     }
 
     /// Removes finished pieces and frames, and learns what they cost.
@@ -118,7 +123,8 @@ impl InFlight {
             let Some(piece) = self.pieces.pop_front() else { continue };
             let completion = Completion { work, piece, busy_ms };
             let is_merged = f64::from(u8::from(completion.is_merged()));
-            self.merged_share += (is_merged - self.merged_share) * LATEST_SHARE;
+            self.completions = COMPLETIONS.min(self.completions + 1);
+            self.merged_share += (is_merged - self.merged_share) / f64::from(self.completions);
             completions.push(completion);
         }
         for group in completions.chunk_by(|_, next| next.is_merged()) {

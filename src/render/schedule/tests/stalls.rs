@@ -288,8 +288,7 @@ fn pieces_with_merged_completions_stay_short() {
             let completion = |work| (work, std::mem::take(&mut ms));
             schedule.collect(&finished.into_iter().map(completion).collect::<Vec<_>>());
         }
-        // Before it is known that completions merge, some pieces are divided in trials, and seem to cost less.
-        let bound = 2.3 * (1.5 * PIECE_MS).min(16.0) + 2.0 * overhead_ms;
+        let bound = 2.0 * (1.5 * PIECE_MS).min(16.0) + 2.0 * overhead_ms;
         assert!(longest_ms < bound, "slowness {slowness}: {longest_ms} ms");
         // Pieces are long enough that their fixed cost is not most of the time.
         assert!(device.submits < 6000, "slowness {slowness}: {} pieces", device.submits);
