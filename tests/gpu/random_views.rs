@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 31] = [
+const HARD: [(&str, Size); 32] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -68,6 +68,9 @@ const HARD: [(&str, Size); 31] = [
     (include_str!("hard_views/uneven.json"), SIZE),
     // Power 6 at 1e-6: the Jacobian changes so much within a step that cones of 0.7 of it end behind the surface.
     (include_str!("hard_views/cones.json"), SIZE),
+    // Power 16 at 2e-15: the first step after the series passes the origin, and stretches a direction thirty times as much as
+    // others that the series hardly stretches.
+    (include_str!("hard_views/origin_behind_series.json"), SIZE),
     // A Julia set of power 16, whose estimate at the eye is more than the way to the surface.
     (include_str!("hard_views/first_step.json"), SIZE),
     // Power 2 at 9e-22: a third of a step, as the stretch along a ray limits it, is in front of thin sheets.

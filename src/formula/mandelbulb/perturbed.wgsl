@@ -96,9 +96,9 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return estimate(fractal, point, along);
 }
 
-// The direction that stands for all rays of a cone: the direction that the series stretches most.
+// The direction that stands for all rays of a cone: that which orbits in view stretch most.
 fn cone_direction() -> vec3f {
-    return frame.formula.series.widest;
+    return frame.formula.cone_direction;
 }
 
 // True if the view's series approximation and near steps hold for a point.

@@ -91,6 +91,8 @@ struct FormulaUniforms {
     // The series approximation before the near steps, and the near steps' reference points.
     series: SeriesApproximation,
     near: array<ReferencePoint, NEAR_POINTS>,
+    // The direction that orbits in view stretch most, a unit vector: it stands for all directions of a cone.
+    cone_direction: vec3f,
 }
 
 // A uniform buffer, not a storage buffer: lavapipe gathers points that differ between lanes several times

@@ -118,6 +118,8 @@ host_shared! {
         series: SeriesApproximation,
         /// The reference points of the near steps.
         near: Array<ReferencePoint, NEAR_POINTS>,
+        /// The direction that orbits in view stretch most, a unit vector: it stands for all directions of a cone.
+        cone_direction: [f32; 3],
     }
 }
 
@@ -174,6 +176,8 @@ pub fn pack(mandelbulb: &Mandelbulb, view: &PackedFor<'_>) -> Packed {
     let points: Vec<_> = reference.points().iter().map(reference_point).collect();
     let (series, near) = series(reference, view);
     uniforms.series = series[0];
+    let parting = reference.parting_jacobian(view.scale);
+    uniforms.cone_direction = widest_direction(parting).as_vec3().to_array();
     let steps = if reference.rotates() {
         Steps::RotatingFrame
     } else {

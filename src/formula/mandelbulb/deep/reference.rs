@@ -2,7 +2,7 @@
 
 use std::{any::Any, sync::Arc};
 
-use glam::DVec3;
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     iterations::{FINEST_FOOTPRINT, WHOLE_FOOTPRINT, iterations_for},
@@ -12,7 +12,8 @@ use super::{
 use crate::{
     formula::{
         ReferenceOrbit,
-        mandelbulb::{parameters::Mandelbulb, power::TriplexPower},
+        mandelbulb::{estimator::DEEP_SIDEWAYS_MAX, parameters::Mandelbulb, power::TriplexPower},
+        recurrence::norm,
     },
     precise::PrecisePoint,
 };
@@ -165,6 +166,24 @@ impl Reference {
             here
         };
         reference_points.iter().map(step).collect()
+    }
+
+    /// The Jacobian of the anchor's orbit where the orbits of points one `scale` away part from it.
+    ///
+    /// In units of one over the scale. Later steps than a series' may stretch other directions: beside the origin, one that
+    /// the steps before hardly stretch is stretched thirty times as much as others.
+    pub fn parting_jacobian(&self, scale: f64) -> DMat3 {
+        let power = TriplexPower::new(&self.fractal);
+        let start = DMat3::from_diagonal(DVec3::splat(scale));
+        let added = if self.fractal.julia { DMat3::ZERO } else { start };
+        let mut jacobian = start;
+        for point in &self.reference_points[..self.own_points] {
+            if norm(&jacobian) >= 1.0 || point.z.truncate() == DVec2::ZERO {
+                break;
+            }
+            jacobian = power.jacobian(point.z, DEEP_SIDEWAYS_MAX) * jacobian + added;
+        }
+        jacobian
     }
 
     /// Iterations of a view of `fractal` whose pixels have radius `footprint` at the surface.
