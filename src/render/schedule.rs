@@ -293,7 +293,10 @@ impl Schedule {
         let expected_ms = match work {
             Work::Trace(trace) => {
                 let whole_ms = self.cost.expected_ms(trace.job(), phase, trace.samples());
-                whole_ms / f64::from(trace.parts())
+                match trace.parts() {
+                    1 => whole_ms,
+                    parts => self.cost.division.part_ms(parts, whole_ms),
+                }
             }
             Work::Display(_) => self.cost.display_ms(),
         };

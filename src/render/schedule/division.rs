@@ -3,8 +3,7 @@
 //! In: what pieces of few and of many parts took. Out: the parts of the next one. Even the fewest workgroups may take longer
 //! than a piece should, with many lights most of it for shadow rays. Each part marches those to some of the lights, and
 //! between parts frames of the interface can be drawn. What a part costs beside its rays, in a browser mostly the latency of
-//! its completion, its
-//! overhead, is found by trying: with a long latency, the parts of a piece take longer than the piece.
+//! its completion, is its overhead. It is found by trying: with a long latency, the parts of a piece take longer than the piece.
 
 use std::collections::VecDeque;
 
@@ -65,6 +64,12 @@ impl Division {
         let overhead_ms = self.overhead_ms().unwrap_or(0.0);
         // Twice as many parts as are wanted cost as much as their rays, at most.
         (ms - (parts - 1.0) * overhead_ms).max(0.5 * ms)
+    }
+
+    /// Expected time of one of so many parts of a piece that takes `whole_ms` undivided, milliseconds.
+    pub fn part_ms(&self, parts: u32, whole_ms: f64) -> f64 {
+        let overhead_ms = self.overhead_ms().unwrap_or(0.0).min(whole_ms);
+        (whole_ms - overhead_ms) / f64::from(parts) + overhead_ms
     }
 
     /// What a part costs beside its rays, milliseconds.

@@ -32,12 +32,20 @@ pub fn aim_ms(pace: Pace, budget_ms: f64) -> f64 {
 pub struct PieceSizes {
     /// Number of pieces so far, modulo 2³².
     issued: u32,
-    is_half: bool,
+}
+
+/// The size of a piece.
+#[derive(Clone, Copy, Debug)]
+pub struct PieceSize {
+    /// How many workgroups, at most [`MAX_PIECE_WORKGROUPS`].
+    pub workgroups: u32,
+    /// How many times as large other pieces are, at least 1.
+    pub largest: u32,
 }
 
 impl PieceSizes {
-    /// Workgroups of the next piece, at most [`MAX_PIECE_WORKGROUPS`]: every second piece is half as large as the others,
-    /// every third one if completions have arrived together (`are_merged`).
+    /// The size of the next piece: every second piece is half as large as the others, every third one if completions have
+    /// arrived together (`are_merged`).
     ///
     /// `kept`: pixels that take no time.
     pub fn next(
@@ -47,19 +55,17 @@ impl PieceSizes {
         job: Job,
         kept: KeptPixels,
         are_merged: bool,
-    ) -> u32 {
+    ) -> PieceSize {
         let computed = f64::from(1.0 - kept.share).max(1e-3);
         let wanted = (f64::from(cost.piece_workgroups(aim_ms, job)) / computed) as u32;
         let largest = wanted.min(MAX_PIECE_WORKGROUPS);
         // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
         // completions are of two pieces, so that only every third piece makes pairs of two sizes.
         self.issued = self.issued.wrapping_add(1);
-        self.is_half = self.issued.is_multiple_of(if are_merged { 3 } else { 2 });
-        if self.is_half { largest.div_ceil(2) } else { largest }
-    }
-
-    /// Whether the last piece is half as large as others.
-    pub fn is_half(&self) -> bool {
-        self.is_half
+        if self.issued.is_multiple_of(if are_merged { 3 } else { 2 }) {
+            PieceSize { workgroups: largest.div_ceil(2), largest: 2 }
+        } else {
+            PieceSize { workgroups: largest, largest: 1 }
+        }
     }
 }
