@@ -3,6 +3,8 @@
 //! What counts as a hit is the document's: nearer than the pixel's cone is wide, times the detail
 //! setting; at powers below 4 for half of that length along the ray, in views about an anchor at half of the points there.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::{DVec2, DVec3};
 use mandelight::{
     formula::mandelbulb::Mandelbulb,
@@ -51,6 +53,7 @@ pub struct SetView<'a> {
     unit: f64,
     /// How many of the points of [`STILL`] must be near.
     near_points: usize,
+    orbit_steps: AtomicU64,
 }
 
 impl<'a> SetView<'a> {
@@ -66,6 +69,7 @@ impl<'a> SetView<'a> {
             eye: position.each_ref().map(|v: &Precise| Real::parse(&v.to_string())),
             unit: scene.camera.view_unit(),
             near_points: if has_anchor { STILL.len() / 2 } else { STILL.len() },
+            orbit_steps: AtomicU64::new(0),
         }
     }
 
@@ -145,7 +149,14 @@ impl<'a> SetView<'a> {
     /// The estimate at a depth along a direction.
     pub fn estimate(&self, direction: DVec3, depth: f64) -> Estimate {
         let grain = MIN_STEP * self.hit_distance(depth);
-        self.set.estimate(&self.at(direction, depth), grain)
+        let estimate = self.set.estimate(&self.at(direction, depth), grain);
+        self.orbit_steps.fetch_add(estimate.steps.into(), Ordering::Relaxed);
+        estimate
+    }
+
+    /// Orbit steps of all estimates so far.
+    pub fn orbit_steps(&self) -> u64 {
+        self.orbit_steps.load(Ordering::Relaxed)
     }
 
     /// Depth of the surface along a ray whose steps `step` makes of estimates.
