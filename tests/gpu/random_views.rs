@@ -70,8 +70,8 @@ const HARD: [(&str, Size); 32] = [
     (include_str!("hard_views/uneven.json"), SIZE),
     // Power 6 at 1e-6: the Jacobian changes so much within a step that cones of 0.7 of it end behind the surface.
     (include_str!("hard_views/cones.json"), SIZE),
-    // Power 16 at 2e-15: the first step after the series passes the origin, and stretches a direction thirty times as much as
-    // others that the series hardly stretches.
+    // Power 16 at 2e-15: the first step after the series passes the origin. Orbits then stretch a direction at right angles to
+    // the one that the series stretches most, thirty times as much as dr says.
     (include_str!("hard_views/origin_behind_series.json"), SIZE),
     // A Julia set of power 16, whose estimate at the eye is more than the way to the surface.
     (include_str!("hard_views/first_step.json"), SIZE),

@@ -96,7 +96,7 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return estimate(fractal, point, along);
 }
 
-// The direction that stands for all rays of a cone: that which orbits in view stretch most.
+// The direction that orbits in view stretch most. It stands for the directions of all rays of a cone.
 fn cone_direction() -> vec3f {
     return frame.formula.cone_direction;
 }

@@ -170,8 +170,8 @@ impl Reference {
 
     /// The Jacobian of the anchor's orbit where the orbits of points one `scale` away part from it.
     ///
-    /// In units of one over the scale. Later steps than a series' may stretch other directions: beside the origin, one that
-    /// the steps before hardly stretch is stretched thirty times as much as others.
+    /// In units of one over the scale. The steps after a series may stretch another direction most than the series does: in one
+    /// view, a step beside the origin stretches one at right angles to it thirty times as much as dr says.
     pub fn parting_jacobian(&self, scale: f64) -> DMat3 {
         let power = TriplexPower::new(&self.fractal);
         let start = DMat3::from_diagonal(DVec3::splat(scale));
