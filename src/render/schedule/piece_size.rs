@@ -39,8 +39,8 @@ pub struct PieceSizes {
 pub struct PieceSize {
     /// How many workgroups, at most [`MAX_PIECE_WORKGROUPS`].
     pub workgroups: u32,
-    /// How many times as large other pieces are, at least 1.
-    pub largest: u32,
+    /// What the workgroups of larger pieces are divided by: 2 for a piece of half the size, else 1.
+    pub divisor: u32,
 }
 
 impl PieceSizes {
@@ -63,9 +63,9 @@ impl PieceSizes {
         // completions are of two pieces, so that only every third piece makes pairs of two sizes.
         self.issued = self.issued.wrapping_add(1);
         if self.issued.is_multiple_of(if are_merged { 3 } else { 2 }) {
-            PieceSize { workgroups: largest.div_ceil(2), largest: 2 }
+            PieceSize { workgroups: largest.div_ceil(2), divisor: 2 }
         } else {
-            PieceSize { workgroups: largest, largest: 1 }
+            PieceSize { workgroups: largest, divisor: 1 }
         }
     }
 }

@@ -18,8 +18,8 @@ impl Schedule {
     /// The next piece of `points`, whose next workgroup is `first_workgroup`.
     pub(super) fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let part = self.progress.take_part().unwrap_or_else(|| {
-            let (whole, largest) = self.next_workgroups(points, first_workgroup);
-            match self.parts(&whole, largest) {
+            let (whole, divisor) = self.next_workgroups(points, first_workgroup);
+            match self.parts(&whole, divisor) {
                 Some(count) => self.progress.divide(whole, count, self.cost.casting()),
                 None => whole,
             }
@@ -37,15 +37,15 @@ impl Schedule {
         part
     }
 
-    /// All that the next piece of `points` computes, and how many times as large other pieces are.
+    /// All that the next piece of `points` computes, and the divisor of its [`PieceSize`].
     fn next_workgroups(&mut self, points: Points, first_workgroup: u32) -> (Trace, u32) {
         let job = self.progress.job(points);
         let kept = self.progress.kept_pixels(points);
-        let wanted_size = match self.phase() {
+        let size = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
             Phase::Opening | Phase::Jump => {
-                PieceSize { workgroups: MAX_PIECE_WORKGROUPS, largest: 1 }
+                PieceSize { workgroups: MAX_PIECE_WORKGROUPS, divisor: 1 }
             }
             Phase::Refining => {
                 let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
@@ -54,18 +54,18 @@ impl Schedule {
             }
         };
         let total = points.grid(self.progress.size_px).workgroups();
-        let workgroups = wanted_size.workgroups.min(total - first_workgroup);
+        let workgroups = size.workgroups.min(total - first_workgroup);
         let Job { from, lights } = job;
         let whole = Trace { points, from, lights, first_workgroup, workgroups, kept, part: None };
-        (whole, wanted_size.largest)
+        (whole, size.divisor)
     }
 
     /// The parts to submit `whole` in, one of them where more don't pay; none where its lights need not be divided.
-    /// `largest`: how many times as large other pieces are.
+    /// `divisor`: that of its [`PieceSize`].
     ///
     /// Lights are divided while someone watches a picture refine, and only where even the smallest piece takes too long. The
     /// buffers hold one batch from part to part. Merged completions don't say what a part takes.
-    fn parts(&mut self, whole: &Trace, largest: u32) -> Option<u32> {
+    fn parts(&mut self, whole: &Trace, divisor: u32) -> Option<u32> {
         let is_seen = self.pace == Pace::Interactive && self.phase() == Phase::Refining;
         let is_measured = self.in_flight.has_reliable_times();
         let has_shadows = (Stage::March..=Stage::Shadow).contains(&whole.from);
@@ -75,7 +75,7 @@ impl Schedule {
         let aim_ms = piece_size::aim_ms(self.pace, self.budget_ms);
         let fewest = MIN_WORKGROUPS * WORKGROUP_THREADS;
         // A piece of half the size has as many parts as others: the cost of a part and of half a piece are told apart.
-        let [fewest_ms, largest_ms] = [fewest, largest * whole.samples()]
+        let [fewest_ms, largest_ms] = [fewest, divisor * whole.samples()]
             .map(|samples| self.cost.expected_ms(whole.job(), Phase::Refining, samples));
         let most = (whole.lights & self.cost.casting()).count_ones();
         (most > 1 && fewest_ms > MIN_EXCESS * aim_ms)
