@@ -76,7 +76,7 @@ fn next_derivatives(
         let inverse_limit = max(before.inverse_limit, origin_rate(orbit, before, q));
         // Kernels of any power draw whole powers too.
         if (!HAS_SEAM || fractal.power == floor(fractal.power)) {
-            return Derivatives(dr, dg + added, before.stretched, 0.0, 0.0, inverse_limit);
+            return Derivatives(dr, dg + added, vec3f(0.0), 0.0, 0.0, inverse_limit);
         }
         let seam = seam_rate(fractal, before, z, step.inverse_rho, along);
         let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
@@ -91,17 +91,19 @@ fn next_derivatives(
 
 // A ray's safe step. `height`: see `height_of`. The scalar dr ignores the stretch along parallels, so the
 // step is the step factor times the estimate by dg, which bounds that stretch, and at most the distance. It ends
-// before any orbit point gets to a seam or the origin.
+// before any orbit point gets to a seam or the origin. With `HAS_SEAM` it is also at most the distance over the stretch of
+// the ray's direction.
 // With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction, as far as that stretch
 // holds: no orbit point may turn about the axis by more than `TURN_MAX`.
 fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
-    if (!FOLLOWS_DIRECTION) {
-        let step = height / max(max(derivatives.dg, derivatives.dr), 1e-37);
-        return min(step, 1.0 / max(derivatives.inverse_limit, 1e-30));
-    }
     // The square of `stretched` can overflow with a large bailout.
     let inverse = 1.0 / max(derivatives.dr, 1e-37);
     let followed = length(inverse * derivatives.stretched);
+    if (!FOLLOWS_DIRECTION) {
+        let step = height / max(max(derivatives.dg, derivatives.dr), 1e-37);
+        let along = select(step, inverse * height / max(followed, 1.0), HAS_SEAM);
+        return min(min(step, along), 1.0 / max(derivatives.inverse_limit, 1e-30));
+    }
     let stretch = max(max(followed, derivatives.rest), 1.0);
     return min(inverse * height / stretch, TURN_MAX / max(derivatives.turn, 1e-30));
 }

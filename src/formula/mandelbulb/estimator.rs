@@ -12,7 +12,9 @@
 //! through thin walls if an orbit comes near the axis. So a second scalar dg grows by the largest of the
 //! three, up to a cap ([`SIDEWAYS_MAX`]), which is far too careful away from the axis: a ray steps by several times the estimate by dg
 //! ([`step_factor`]), and at most by the estimate by dr. `tests/cpu/fractal/properties.rs` counts the
-//! surfaces that rays still miss, against a march with far shorter steps.
+//! surfaces that rays still miss, against a march with far shorter steps. Kernels of powers that are not whole carry
+//! the image of a ray's direction too, for the seams below; a step is at most ½ · ln r · r over its length, which in some
+//! Julia sets is twice dr.
 //!
 //! Two places of an orbit end a step, since estimates in front of them don't hold behind them:
 //!

@@ -195,14 +195,15 @@ impl Mandelbulb {
         let usual = MarchPolicy::default();
         let mix = |usual: f32, at_low: f32| usual * (1.0 - low) + at_low * low;
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
-        let most = match self.integer_power() {
-            Some(_) => usual.relaxation,
-            // Their seams leave thin sheets, which longer steps pass.
-            None => 1.0,
+        let (most_relaxation, most_of_ball) = match self.integer_power() {
+            Some(_) => (usual.relaxation, usual.ball_part),
+            // Their seams leave thin sheets, which longer steps pass. Steps of rays are limited by the stretch of their
+            // direction, which cones don't have.
+            None => (1.0, 0.7),
         };
         MarchPolicy {
-            relaxation: (1.0 - relaxed) + most * relaxed,
-            ball_part: (0.25 * power - 0.5).clamp(0.7, 1.0),
+            relaxation: (1.0 - relaxed) + most_relaxation * relaxed,
+            ball_part: (0.25 * power - 0.5).clamp(0.7, most_of_ball),
             checks_hits: self.power < HIT_CHECK_BELOW,
             sphere_holds_set: true,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
@@ -256,11 +257,15 @@ mod tests {
     }
 
     #[test]
-    fn powers_that_are_not_whole_take_plain_steps() {
-        let relaxation =
-            |power| Mandelbulb { power, ..Default::default() }.march_policy().relaxation;
-        assert_eq!(relaxation(10.07), 1.0);
-        assert_eq!(relaxation(10.0), MarchPolicy::default().relaxation);
-        assert_eq!(relaxation(2.0), 1.0);
+    fn powers_that_are_not_whole_take_plain_steps_and_small_balls() {
+        let policy = |power| {
+            let MarchPolicy { relaxation, ball_part, .. } =
+                Mandelbulb { power, ..Default::default() }.march_policy();
+            (relaxation, ball_part)
+        };
+        let usual = MarchPolicy::default();
+        assert_eq!(policy(10.07), (1.0, 0.7));
+        assert_eq!(policy(10.0), (usual.relaxation, usual.ball_part));
+        assert_eq!(policy(2.0), (1.0, 0.7));
     }
 }
