@@ -11,6 +11,9 @@ const MIN_STEP_WITH_HIT_CHECK = 0.4;
 // sought by bisection: they may have ended deep inside the set.
 const WIDEST_CROSSING = 4.0;
 
+// Radius that a ray's balls grow from behind its cone, in hit distances. Cones end where their safe steps are at most 18.
+const BALL_BEHIND_CONE = 10.0;
+
 // Before a ray's first point no distance is known; a crossing on the way to that point is placed at it.
 const UNKNOWN_LEFT = 1e30;
 
@@ -64,6 +67,9 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
     if (t == 0.0 && !is_bounced()) { over.next = STEP_FROM_EYE; }
+    if (t > interval.x && !is_bounced()) {
+        over.max_ball = frame.march.ball_growth * BALL_BEHIND_CONE * hit_distance(ray, t);
+    }
     // Depth of the last point, and the distance that was missing to a hit there. A cone may end inside the set where its
     // estimate is too large: the way to a ray's first point starts at the bounding sphere.
     var before = interval.x;

@@ -38,7 +38,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 33] = [
+const HARD: [(&str, Size); 34] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -98,6 +98,8 @@ const HARD: [(&str, Size); 33] = [
     (include_str!("hard_views/seam_layers.json"), SIZE),
     // A Julia set of power 9.27 at 2e-4: the estimate is up to 1.2 times the way, since orbits stretch rays more than dr says.
     (include_str!("hard_views/stretched_rays.json"), SIZE),
+    // A Julia set of power 6 at 2e-11: rays begin behind their cones where the stretch along them is least.
+    (include_str!("hard_views/behind_cones.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;
