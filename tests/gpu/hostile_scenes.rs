@@ -3,12 +3,7 @@
 //! `cargo test --release --test gpu hostile_scenes -- --ignored --nocapture` draws 2000 other scenes each run and prints
 //! its seed; `MANDELIGHT_SEED` draws those of a run again, and `MANDELIGHT_SCENES` sets their number.
 
-use std::{
-    fs,
-    ops::ControlFlow,
-    path::Path,
-    time::{SystemTime, UNIX_EPOCH},
-};
+use std::{fs, ops::ControlFlow, path::Path};
 
 use mandelight::{
     export::{Eye, PictureFormat, StillJob, StillOptions},
@@ -19,6 +14,7 @@ use mandelight_test_support::{
     device::{gpu, pipelines},
     hostile::{HostileScene, HostileScenes},
     random::Random,
+    variables,
     view::{pixels, settle},
 };
 
@@ -197,10 +193,7 @@ fn forty_scenes_are_finite() {
 #[test]
 #[ignore = "an hour, and other scenes each run: see CONTRIBUTING.md"]
 fn hostile_scenes_are_finite() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let seed = number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64));
-    let count = number("MANDELIGHT_SCENES").map_or(MANY_SCENES, |count| count as usize);
-    let failing = failing_scenes(seed, count);
+    let count = variables::number("MANDELIGHT_SCENES").map_or(MANY_SCENES, |count| count as usize);
+    let failing = failing_scenes(variables::seed(), count);
     assert!(failing.is_empty(), "{failing:#?}");
 }

@@ -5,11 +5,7 @@
 //! `MANDELIGHT_DECADES=6` draws them from 1 to 1e-6 scene units away instead of to 1e-26. `MANDELIGHT_VIEW=FILE`
 //! judges the scene of one file instead, such as a view that a run has stored.
 
-use std::{
-    fs,
-    path::Path,
-    time::{SystemTime, UNIX_EPOCH},
-};
+use std::{fs, path::Path};
 
 use mandelight::{
     gpu::device::in_parallel,
@@ -23,6 +19,7 @@ use mandelight_test_support::{
         views,
     },
     random::Random,
+    variables,
     view::single_samples,
 };
 
@@ -172,6 +169,23 @@ const MOST_WRONG: f64 = 0.005;
 /// Part of all pictures' pixels.
 const MOST_WRONG_OF_ALL: f64 = 0.001;
 
+/// How true the pictures of random views are.
+#[derive(Default)]
+struct Judgement {
+    /// What is said of each view that breaks a limit.
+    broken: Vec<String>,
+    /// The pixels of all views.
+    all: Judged,
+}
+
+impl Judgement {
+    fn assert_true(&self) {
+        let Self { broken, all } = self;
+        assert!(broken.is_empty(), "{broken:#?}");
+        assert!(all.wrong() as f64 <= MOST_WRONG_OF_ALL * all.pixels as f64, "all: {all:?}");
+    }
+}
+
 /// Judges random views until `wanted` of them show something; `draw` gets the number of those before. Pictures that break a
 /// limit are judged again at the size `finer`, if any. Views that break it still are stored, to look at.
 fn judge_views(
@@ -179,12 +193,12 @@ fn judge_views(
     wanted: usize,
     finer: Option<Size>,
     draw: impl Fn(&mut Random, usize) -> Option<RandomView>,
-) -> Vec<String> {
+) -> Judgement {
     println!("MANDELIGHT_SEED={seed}");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("random-views");
     fs::create_dir_all(&folder).expect("a folder");
     let mut random = Random(seed);
-    let (mut found, mut all, mut broken) = (0, Judged::default(), Vec::new());
+    let (mut found, Judgement { mut broken, mut all }) = (0, Judgement::default());
     while found < wanted {
         let Some(view) = draw(&mut random, found) else { continue };
         let mut judged = judge(&view.scene, SIZE);
@@ -211,10 +225,7 @@ fn judge_views(
         }
     }
     println!("all: {all:?}");
-    if all.wrong() as f64 > MOST_WRONG_OF_ALL * all.pixels as f64 {
-        broken.push(format!("all: {all:?}"));
-    }
-    broken
+    Judgement { broken, all }
 }
 
 #[test]
@@ -275,8 +286,7 @@ const SEED: u64 = 11;
 
 #[test]
 fn twenty_views_are_true() {
-    let broken = judge_views(SEED, 20, None, |random, _| random_view(random, NEAREST));
-    assert!(broken.is_empty(), "{broken:#?}");
+    judge_views(SEED, 20, None, |random, _| random_view(random, NEAREST)).assert_true();
 }
 
 /// Distance of the nearest of views that are mostly drawn in plain f32, scene units.
@@ -284,8 +294,7 @@ const NEAREST_PLAIN: f64 = 1e-6;
 
 #[test]
 fn forty_views_from_farther_away_are_true() {
-    let broken = judge_views(SEED, 40, None, |random, _| random_view(random, NEAREST_PLAIN));
-    assert!(broken.is_empty(), "{broken:#?}");
+    judge_views(SEED, 40, None, |random, _| random_view(random, NEAREST_PLAIN)).assert_true();
 }
 
 /// Whole powers that random views do not have.
@@ -293,27 +302,34 @@ const OTHER_POWERS: [f64; 6] = [7.0, 10.0, 11.0, 13.0, 14.0, 15.0];
 
 #[test]
 fn a_view_of_each_other_whole_power_is_true() {
-    let broken = judge_views(SEED, OTHER_POWERS.len(), None, |random, found| {
+    judge_views(SEED, OTHER_POWERS.len(), None, |random, found| {
         random_view_of(OTHER_POWERS[found], random, NEAREST)
-    });
-    assert!(broken.is_empty(), "{broken:#?}");
+    })
+    .assert_true();
+}
+
+/// Views that may break a limit of twenty that were never judged before: about one in a hundred does.
+const MOST_BROKEN: usize = 1;
+
+#[test]
+fn twenty_other_views_are_true_but_one() {
+    let judgement =
+        judge_views(variables::seed(), 20, Some(FINER), |random, _| random_view(random, NEAREST));
+    assert!(judgement.broken.len() <= MOST_BROKEN, "{:#?}", judgement.broken);
 }
 
 #[test]
 #[ignore = "minutes, and other views each run: see CONTRIBUTING.md"]
 fn random_views_are_true() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let seed = number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64));
     if let Some(file) = std::env::var_os("MANDELIGHT_VIEW") {
         let text = fs::read_to_string(&file).expect("a file");
         let judged = judge(&document::from_json(&text).expect("a scene"), SIZE);
         println!("{}: {judged:?}", file.display());
         return;
     }
-    let wanted = number("MANDELIGHT_VIEWS").unwrap_or(200) as usize;
-    let nearest = number("MANDELIGHT_DECADES").map_or(NEAREST, |n| 10_f64.powi(-(n as i32)));
-    let broken =
-        judge_views(seed | 1, wanted, Some(FINER), |random, _| random_view(random, nearest));
-    assert!(broken.is_empty(), "{broken:#?}");
+    let wanted = variables::number("MANDELIGHT_VIEWS").unwrap_or(200) as usize;
+    let nearest =
+        variables::number("MANDELIGHT_DECADES").map_or(NEAREST, |n| 10_f64.powi(-(n as i32)));
+    judge_views(variables::seed(), wanted, Some(FINER), |random, _| random_view(random, nearest))
+        .assert_true();
 }

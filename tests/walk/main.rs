@@ -16,11 +16,11 @@ mod widgets;
 use std::{
     alloc::System,
     sync::{Mutex, MutexGuard, PoisonError},
-    time::{SystemTime, UNIX_EPOCH},
 };
 
 use cap::Cap;
 use mandelight::gpu::device::in_parallel;
+use mandelight_test_support::variables;
 
 use walker::{Formulas, Walker};
 
@@ -53,10 +53,8 @@ fn ten_thousand_actions_break_nothing() {
 #[ignore = "other actions each run: see the file's first lines"]
 fn one_walk() {
     let _alone = alone();
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let seed = number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64));
-    let actions = number("MANDELIGHT_ACTIONS").unwrap_or(100_000);
+    let seed = variables::seed();
+    let actions = variables::number("MANDELIGHT_ACTIONS").unwrap_or(100_000);
     println!("MANDELIGHT_SEED={seed} MANDELIGHT_ACTIONS={actions}");
     Walker::new(seed, Formulas::Typed).walk(actions);
 }

@@ -19,6 +19,7 @@
 //! | `scenes`, `hostile` | any valid scene; scenes that are hard on the kernels |
 //! | `random` | numbers that come out the same each time |
 //! | `statistics` | quantiles |
+//! | `variables` | numbers from environment variables, and new seeds |
 
 pub mod beauty;
 pub mod compare;
@@ -38,4 +39,5 @@ pub mod random;
 pub mod scenes;
 pub mod statistics;
 pub mod stereo;
+pub mod variables;
 pub mod view;

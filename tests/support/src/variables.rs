@@ -1,0 +1,17 @@
+//! Numbers from environment variables, which say what tests with other inputs each run draw.
+
+use std::{
+    env,
+    time::{SystemTime, UNIX_EPOCH},
+};
+
+/// A variable's number; none if there is no such variable, or if it is no number.
+pub fn number(name: &str) -> Option<u64> {
+    env::var(name).ok()?.parse().ok()
+}
+
+/// The seed in `MANDELIGHT_SEED`; another one each run without it. Odd, since [`Random`](crate::random::Random) needs a bit.
+pub fn seed() -> u64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64)) | 1
+}
