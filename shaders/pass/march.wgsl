@@ -11,9 +11,6 @@ const MIN_STEP_WITH_HIT_CHECK = 0.4;
 // sought by bisection: they may have ended deep inside the set.
 const WIDEST_CROSSING = 4.0;
 
-// Radius that a ray's balls grow from behind its cone, in hit distances. Cones end where their safe steps are at most 18.
-const BALL_BEHIND_CONE = 10.0;
-
 // Before a ray's first point no distance is known; a crossing on the way to that point is placed at it.
 const UNKNOWN_LEFT = 1e30;
 

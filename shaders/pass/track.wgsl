@@ -26,8 +26,9 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
     let first_pair = FIRST_STEP_PAIR + STEP_PAIRS * dispatch.ray_queue;
     var t = max(interval.x, clear);
     var i = 0u;
-    // The first step has no limit but its own.
+    // Without a cone before it, the first step has no limit but its own.
     var longest_step = 1e30;
+    if (t > interval.x) { longest_step = frame.march.ball_growth * BALL_BEHIND_CONE * hit_distance(ray, t); }
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < max_steps() && t <= interval.y; i++) {
