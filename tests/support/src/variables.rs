@@ -1,4 +1,4 @@
-//! Numbers from environment variables, which say what tests with other inputs each run draw.
+//! Numbers from environment variables, and seeds of tests with new inputs in each run.
 
 use std::{
     env,
@@ -10,7 +10,7 @@ pub fn number(name: &str) -> Option<u64> {
     env::var(name).ok()?.parse().ok()
 }
 
-/// The seed in `MANDELIGHT_SEED`; another one each run without it. Odd, since [`Random`](crate::random::Random) needs a bit.
+/// The seed in `MANDELIGHT_SEED`, or one from the clock. Odd, since [`Random`](crate::random::Random) stays at 0.
 pub fn seed() -> u64 {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64)) | 1
