@@ -8,7 +8,7 @@ fn step_factor(fractal: Fractal) -> f32 {
 // Derivatives of an orbit by its point.
 struct Derivatives {
     dr: f32,
-    // Product of bounds on the stretch, over the step factor: a ray's step is the height over the
+    // Product of bounds on the stretch, over the step factor: a ray's step is at most the height over the
     // larger of dr and dg. Over the many steps of a deep orbit dg grows far past the Jacobian's norm, so that
     // `FOLLOWS_DIRECTION` has two stretched directions instead.
     dg: f32,

@@ -85,7 +85,8 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return Estimate(0.0, 0.0);
 }
 
-// The direction that stands for all rays of a cone: zero, since steps do not depend on it.
+// The direction that stands for all rays of a cone: zero, since there is none. Seams then limit steps in every direction,
+// and cones take a part of a step, since no stretch along a ray limits it.
 fn cone_direction() -> vec3f {
     return vec3f(0.0);
 }
