@@ -64,9 +64,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
     if (t == 0.0 && !is_bounced()) { over.next = STEP_FROM_EYE; }
-    if (t > interval.x && !is_bounced()) {
-        over.max_ball = frame.march.ball_growth * BALL_BEHIND_CONE * hit_distance(ray, t);
-    }
+    if (t > interval.x && !is_bounced()) { over.max_ball = largest_ball_behind_cone(ray, t); }
     // Depth of the last point, and the distance that was missing to a hit there. A cone may end inside the set where its
     // estimate is too large: the way to a ray's first point starts at the bounding sphere.
     var before = interval.x;

@@ -28,7 +28,7 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
     var i = 0u;
     // Without a cone before it, the first step has no limit but its own.
     var longest_step = 1e30;
-    if (t > interval.x) { longest_step = frame.march.ball_growth * BALL_BEHIND_CONE * hit_distance(ray, t); }
+    if (t > interval.x) { longest_step = largest_ball_behind_cone(ray, t); }
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < max_steps() && t <= interval.y; i++) {

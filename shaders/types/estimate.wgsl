@@ -31,7 +31,3 @@ fn needs_hit_check() -> bool {
     if (CHECKS_HITS >= 0) { return CHECKS_HITS == 1; }
     return frame.march.checks_hits != 0u;
 }
-
-// Radius that the balls of a camera ray grow from behind its cone, in hit distances: about half the last safe step of a cone
-// of 4×2 pixels.
-const BALL_BEHIND_CONE = 10.0;

@@ -170,7 +170,6 @@ const MOST_WRONG: f64 = 0.005;
 const MOST_WRONG_OF_ALL: f64 = 0.001;
 
 /// How true the pictures of random views are.
-#[derive(Default)]
 struct Judgement {
     /// What is said of each view that breaks a limit.
     broken: Vec<String>,
@@ -198,7 +197,7 @@ fn judge_views(
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("random-views");
     fs::create_dir_all(&folder).expect("a folder");
     let mut random = Random(seed);
-    let (mut found, Judgement { mut broken, mut all }) = (0, Judgement::default());
+    let (mut found, mut all, mut broken) = (0, Judged::default(), Vec::new());
     while found < wanted {
         let Some(view) = draw(&mut random, found) else { continue };
         let mut judged = judge(&view.scene, SIZE);

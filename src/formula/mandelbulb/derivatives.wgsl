@@ -101,8 +101,8 @@ fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
     let followed = length(inverse * derivatives.stretched);
     if (!FOLLOWS_DIRECTION) {
         let step = height / max(max(derivatives.dg, derivatives.dr), 1e-37);
-        let along = select(step, inverse * height / max(followed, 1.0), HAS_SEAM);
-        return min(min(step, along), 1.0 / max(derivatives.inverse_limit, 1e-30));
+        let followed_step = select(step, inverse * height / max(followed, 1.0), HAS_SEAM);
+        return min(min(step, followed_step), 1.0 / max(derivatives.inverse_limit, 1e-30));
     }
     let stretch = max(max(followed, derivatives.rest), 1.0);
     return min(inverse * height / stretch, TURN_MAX / max(derivatives.turn, 1e-30));
