@@ -48,10 +48,13 @@ fn next_step(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
 }
 
 // Least step over the estimate, or over the bounding radius if that is less, after `spent` of `most` steps:
-// `formula::march::step_escalation`.
+// `formula::march::step_escalation`. Where hits need only some of the checks, rays hit in dust before they run out of steps:
+// their late steps grow by the eighth power instead of the fourth, and pass fewer layers.
 fn step_escalation(spent: u32, most: u32) -> f32 {
     let part = f32(spent) / f32(most);
-    return part * part * part * part;
+    let fourth = part * part * part * part;
+    let hits_in_dust = needs_hit_check() && frame.march.near_checks < THICKNESS_CHECKS;
+    return select(fourth, fourth * fourth, hits_in_dust);
 }
 
 // Hits are checked if the estimate has false minima: a hit counts if the ray is within the hit distance at `near_checks` of

@@ -35,7 +35,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 34] = [
+const HARD: [(&str, Size); 35] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -97,6 +97,8 @@ const HARD: [(&str, Size); 34] = [
     (include_str!("hard_views/stretched_rays.json"), SIZE),
     // A Julia set of power 6 at 2e-11: rays begin behind their cones where the stretch along them is least.
     (include_str!("hard_views/behind_cones.json"), SIZE),
+    // Power 2 at 2e-22: rays creep through dust until most of their steps are spent, and long late steps pass layers behind it.
+    (include_str!("hard_views/late_steps.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;
