@@ -35,7 +35,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 35] = [
+const HARD: [(&str, Size); 36] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -95,6 +95,9 @@ const HARD: [(&str, Size); 35] = [
     (include_str!("hard_views/seam_layers.json"), SIZE),
     // A Julia set of power 9.27 at 2e-4: the estimate is up to 1.2 times the way, since orbits stretch rays more than dr says.
     (include_str!("hard_views/stretched_rays.json"), SIZE),
+    // A Julia set of power 11.78 at 2e-4: the stretch of directions, which a cone does not follow, makes cones of 0.7 of their
+    // steps end behind the surface.
+    (include_str!("hard_views/stretched_cones.json"), SIZE),
     // A Julia set of power 6 at 2e-11: rays begin behind their cones where the stretch along them is least.
     (include_str!("hard_views/behind_cones.json"), SIZE),
     // Power 2 at 2e-22: rays creep through dust until most of their steps are spent, and long late steps pass layers behind it.

@@ -198,12 +198,12 @@ impl Mandelbulb {
         let (most_relaxation, most_ball_part) = match self.integer_power() {
             Some(_) => (usual.relaxation, usual.ball_part),
             // Their seams leave thin sheets, which over-relaxed steps pass. A cone has no direction, so that the stretch
-            // along a ray does not limit its steps.
-            None => (1.0, 0.7),
+            // along a ray does not limit its steps: they may be over twice as long as the way.
+            None => (1.0, 0.4),
         };
         MarchPolicy {
             relaxation: (1.0 - relaxed) + most_relaxation * relaxed,
-            ball_part: (0.25 * power - 0.5).clamp(0.7, most_ball_part),
+            ball_part: (0.25 * power - 0.5).clamp(0.7, usual.ball_part).min(most_ball_part),
             checks_hits: self.power < HIT_CHECK_BELOW,
             sphere_holds_set: true,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
@@ -264,7 +264,7 @@ mod tests {
             (relaxation, ball_part)
         };
         let usual = MarchPolicy::default();
-        assert_eq!(policy(10.07), (1.0, 0.7));
+        assert_eq!(policy(10.07), (1.0, 0.4));
         assert_eq!(policy(10.0), (usual.relaxation, usual.ball_part));
         assert_eq!(policy(2.0), (1.0, 0.7));
     }
