@@ -21,7 +21,7 @@ pub const HIT_CHECK_BELOW: f64 = 4.0;
 /// Limits of steps that come from an orbit's Jacobian at one point.
 ///
 /// The Jacobian changes within a step, so that a cone of the whole step passes surfaces.
-pub const STEP_LIMITS: StepLimits = StepLimits { ball_part: 0.4, ball_growth: 2.0 };
+pub const STEP_LIMITS: StepLimits = StepLimits { ball_part: 0.55, ball_growth: 2.0 };
 
 /// In document order, which [`Mandelbulb::of`] and the conversion back follow.
 pub const FIELDS: &[Field] = &[
