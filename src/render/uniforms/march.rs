@@ -27,7 +27,8 @@ const SHADOW_STEPS: u32 = 320;
 /// Checks of a hit that must be within the hit distance, in views about an anchor.
 ///
 /// In dust the estimate has false maxima as thin as its false minima. Plain views need all [`THICKNESS_CHECKS`]: with three, rays
-/// stop at the false minima of silhouettes.
+/// stop at the false minima of silhouettes. With fewer than all, late steps grow more slowly: `step_escalation` in
+/// `shaders/lib/over_relaxation.wgsl`.
 const NEAR_CHECKS_OF_DEEP_RAYS: u32 = 3;
 
 /// Growth of balls in views whose steps are bounds in every direction.
