@@ -195,15 +195,15 @@ impl Mandelbulb {
         let usual = MarchPolicy::default();
         let mix = |usual: f32, at_low: f32| usual * (1.0 - low) + at_low * low;
         let relaxed = (0.5 * power - 1.0).clamp(0.0, 1.0);
-        let (most_relaxation, most_ball_part) = match self.integer_power() {
-            Some(_) => (usual.relaxation, usual.ball_part),
+        let (most_relaxation, ball_part) = match self.integer_power() {
+            Some(_) => (usual.relaxation, (0.25 * power - 0.5).clamp(0.7, usual.ball_part)),
             // Their seams leave thin sheets, which over-relaxed steps pass. A cone has no direction, so that the stretch
             // along a ray does not limit its steps: they may be over twice as long as the way.
             None => (1.0, 0.4),
         };
         MarchPolicy {
             relaxation: (1.0 - relaxed) + most_relaxation * relaxed,
-            ball_part: (0.25 * power - 0.5).clamp(0.7, usual.ball_part).min(most_ball_part),
+            ball_part,
             checks_hits: self.power < HIT_CHECK_BELOW,
             sphere_holds_set: true,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
