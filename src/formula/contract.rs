@@ -444,6 +444,8 @@ pub struct Packed {
     pub table: Arc<[u8]>,
     /// Limits of steps by the Jacobian at one point; none if a product of bounds sets the steps.
     pub step_limits: Option<StepLimits>,
+    /// Number of steps that a series approximation replaces in all orbits near the anchor; 0 without one.
+    pub series_steps: u32,
 }
 
 /// Maximum size of `FormulaUniforms`, in bytes.

@@ -14,7 +14,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        arithmetic::{Point, Real, moved, rounded},
+        arithmetic::{Number, Point, Real, difference, moved, rounded, sum},
         orbit::Set,
     },
     descent::opening_views,
@@ -63,7 +63,7 @@ fn exact(point: &PrecisePoint) -> Point {
     point.0.each_ref().map(|it| Real::parse(&it.to_string()))
 }
 
-/// The first positions of the orbit of `point`, in 256 bits.
+/// The first positions of the orbit of `point`, in 192 bits.
 fn orbit(fractal: &Mandelbulb, point: &PrecisePoint, length: usize) -> Vec<Point> {
     let set = Set::new(fractal, 1);
     let start = exact(point);
@@ -71,31 +71,31 @@ fn orbit(fractal: &Mandelbulb, point: &PrecisePoint, length: usize) -> Vec<Point
     let mut positions = vec![start];
     while positions.len() < length {
         let raised = set.raised(&positions[positions.len() - 1]).point;
-        positions.push([0, 1, 2].map(|i| &raised[i] + &added[i]));
+        positions.push(sum(&raised, &added));
     }
     positions
 }
 
 fn distance(a: &Point, b: &Point) -> f64 {
-    rounded(&[0, 1, 2].map(|i| &a[i] - &b[i])).length()
+    rounded(&difference(a, b)).length()
 }
 
 /// The moduli of the extreme eigenvalues of the derivative of `steps` steps from `z`, by power iteration.
 ///
-/// The derivative is that of differences of the orbit in 256 bits.
+/// The derivative is that of differences of the orbit in 192 bits.
 fn multiplier(fractal: &Mandelbulb, z: &Point, added: &Point, steps: usize) -> [f64; 2] {
     let set = Set::new(fractal, 1);
     let follow = |offset: DVec3| {
         let mut z = moved(z, offset);
         for _ in 0..steps {
             let raised = set.raised(&z).point;
-            z = [0, 1, 2].map(|i| &raised[i] + &added[i]);
+            z = sum(&raised, added);
         }
         z
     };
     let column = |axis: DVec3| {
         let (after, before) = (follow(axis * 1e-30), follow(axis * -1e-30));
-        rounded(&[0, 1, 2].map(|i| &after[i] - &before[i])) / 2e-30
+        rounded(&difference(&after, &before)) / 2e-30
     };
     let turn = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
     // A hundred turns: the norm's root is the largest modulus, whatever the other eigenvalues are.
@@ -192,7 +192,7 @@ fn places_can_be_looked_at_from_every_depth() {
                     camera.forward().dot((&place.position - &camera.position) / away) > 1.0 - 1e-9,
                     "{name}: looks past {place:?}"
                 );
-                // The estimate of the 256-bit orbit: the eye is outside, with room to move.
+                // The estimate of the 192-bit orbit: the eye is outside, with room to move.
                 let room = set.estimate(&exact(&camera.position), 0.0).distance;
                 assert!(room > 0.04 * depth, "{name}, {depth:e}, {place:?}: {room:e}");
             }

@@ -15,7 +15,8 @@ use mandelight::{
 };
 use mandelight_test_support::{
     oracle::{
-        estimate, orbits,
+        estimate,
+        orbits::Orbits,
         paths::{Paths, drawn, field::Distance, material::Material, numbers},
     },
     random::Random,
@@ -249,8 +250,8 @@ fn paths_through_a_sponge_are_those_of_the_oracle() {
     scene.surface.emission = 0.1;
     scene.surface.second_layer.amount = 0.3;
     let drawn = drawn(&scene, SIZE);
-    let fractal = drawn.fractal.clone();
-    let paths = Paths::new(drawn, SIZE, Box::new(move |p| orbits::distance(&fractal, p)));
+    let orbits = Orbits::of(&drawn.fractal);
+    let paths = Paths::new(drawn, SIZE, Box::new(move |p| orbits.distance(p)));
     let Agreement { close, mean, chance } = compared("sponge", &scene, &paths, PATHS);
     assert!(close > 0.8, "{close} of the pixels are close");
     assert!((mean - 1.0).abs() < 2e-3 + 4.0 * chance, "{mean} of the oracle's light");

@@ -19,7 +19,10 @@ use mandelight::{
     },
 };
 use mandelight_test_support::{
-    deep::{arithmetic::Real, orbit::Set},
+    deep::{
+        arithmetic::{Number, Real},
+        orbit::Set,
+    },
     descent::{NOTCH, VIEWPORT, sixteen_pixels, wheel_in},
 };
 

@@ -176,6 +176,7 @@ impl Steps {
             uniforms: uniforms.to_bytes(),
             table: slots.iter().flat_map(|slot| (*slot as f32).to_le_bytes()).collect(),
             step_limits: None,
+            series_steps: 0,
         }
     }
 }

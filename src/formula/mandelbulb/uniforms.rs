@@ -191,7 +191,8 @@ fn packed_with(variant: Variant, uniforms: &FormulaUniforms, table: Arc<[u8]>) -
     let formula = FormulaRef(&MANDELBULB);
     let kernel = Kernel { formula, variant: variant.number() };
     let step_limits = variant.has_jacobian_steps().then_some(STEP_LIMITS);
-    Packed { kernel, uniforms: uniforms.to_bytes(), table, step_limits }
+    let series_steps = if variant.has_jacobian_steps() { uniforms.series.steps } else { 0 };
+    Packed { kernel, uniforms: uniforms.to_bytes(), table, step_limits, series_steps }
 }
 
 fn fractal(set: &Mandelbulb, view: &PackedFor<'_>, reference: Option<&Reference>) -> Fractal {

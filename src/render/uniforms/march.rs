@@ -37,7 +37,8 @@ const UNLIMITED_GROWTH: f32 = 1e9;
 /// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
 
-/// The march policy and its limits in a view, without the kernel's own limits: see [`March::with_step_limits`].
+/// The march policy and its limits in a view, without those of the kernel: see [`March::with_step_limits`] and
+/// [`March::with_series`].
 ///
 /// `hit_cone` is the hit distance per unit of depth.
 pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) -> March {
@@ -61,7 +62,7 @@ pub fn march(scene: &Scene, region: Region, space: &RenderSpace, hit_cone: f32) 
         bounding_radius: model.bounding_radius() as f32,
         radius_beside: radius_beside(scene, model, &policy, hit_cone.into()) as f32,
         iterations,
-        march_steps: march_steps(iterations, is_deep),
+        march_steps: march_steps(iterations, iterations, is_deep),
         shadow_steps: shadow_steps(iterations, is_deep),
         finest_hit: FINEST_HIT,
         relaxation: policy.relaxation,
@@ -88,23 +89,20 @@ fn radius_beside(scene: &Scene, model: &FractalModel, policy: &MarchPolicy, hit_
     radius + hit_cone * farthest
 }
 
-/// Most steps of a camera ray.
+/// Most steps of a camera ray, whose orbits take `orbit_steps` at most.
 ///
-/// Deep views use all loop turns: rays creep near the axis, and the way from a light outside the set
+/// Deep views use all loop turns: rays creep near the axis and in dust, and the way from a light outside the set
 /// into the depth takes additional steps.
-fn march_steps(iterations: u32, is_deep: bool) -> u32 {
+fn march_steps(iterations: u32, orbit_steps: u32, is_deep: bool) -> u32 {
     let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
-    let turns_of_an_orbit = iterations + LOOPS_OF_AN_ORBIT;
-    // One more orbit gives the colours.
-    most.min(LOOP_TURNS / turns_of_an_orbit - 1)
+    // One more orbit, which may take all iterations, gives the colours.
+    let left = LOOP_TURNS - (iterations + LOOPS_OF_AN_ORBIT);
+    most.min(left / (orbit_steps + LOOPS_OF_AN_ORBIT))
 }
 
 fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
-    if is_deep {
-        march_steps(iterations, true)
-    } else {
-        SHADOW_STEPS.min(march_steps(iterations, false))
-    }
+    let steps = march_steps(iterations, iterations, is_deep);
+    if is_deep { steps } else { SHADOW_STEPS.min(steps) }
 }
 
 impl March {
@@ -114,6 +112,18 @@ impl March {
             Some(StepLimits { ball_part, ball_growth }) => Self { ball_part, ball_growth, ..self },
             None => self,
         }
+    }
+
+    /// The same march where a series approximation replaces the first `series_steps` of orbits near the anchor; 0 without one.
+    ///
+    /// Their turns go to more steps of rays. Orbits of points too far away for the series escape within about as many steps.
+    pub fn with_series(self, series_steps: u32) -> Self {
+        if series_steps == 0 {
+            return self;
+        }
+        let orbit_steps = self.iterations.saturating_sub(series_steps).max(series_steps);
+        let steps = march_steps(self.iterations, orbit_steps, true);
+        Self { march_steps: steps, shadow_steps: steps, ..self }
     }
 }
 
@@ -137,9 +147,27 @@ mod tests {
     fn the_steps_and_the_colours_orbit_are_within_the_turns_of_an_invocation() {
         for iterations in [1, 16, 100, param::ITERATIONS.max as u32, 5000] {
             for is_deep in [false, true] {
-                let orbits = march_steps(iterations, is_deep) + 1;
+                let orbits = march_steps(iterations, iterations, is_deep) + 1;
                 assert!(orbits * (iterations + LOOPS_OF_AN_ORBIT) <= LOOP_TURNS, "{iterations}");
             }
+        }
+    }
+
+    #[test]
+    fn rays_have_the_turns_of_the_steps_that_a_series_replaces() {
+        let iterations = 314;
+        let steps = |series_steps| {
+            let march_steps = march_steps(iterations, iterations, true);
+            let march = March { iterations, march_steps, ..march_of(&Scene::default(), 24) };
+            march.with_series(series_steps).march_steps
+        };
+        assert!(steps(iterations / 2) > 3 * steps(0) / 2);
+        for series_steps in 0..=iterations {
+            let orbit_steps = (iterations - series_steps).max(series_steps);
+            let turns = steps(series_steps) * (orbit_steps + LOOPS_OF_AN_ORBIT);
+            let turns_with_colors = turns + iterations + LOOPS_OF_AN_ORBIT;
+            assert!(turns_with_colors <= LOOP_TURNS, "{series_steps}");
+            assert!(steps(series_steps) >= steps(0), "{series_steps}");
         }
     }
 

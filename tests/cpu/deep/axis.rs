@@ -18,7 +18,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        arithmetic::{Real, moved},
+        arithmetic::{Number, Real, moved},
         orbit::Set,
         views,
     },
@@ -79,7 +79,7 @@ fn offsets(
     offsets
 }
 
-/// Holds the field about points to the estimates of 256 bits, from all scales.
+/// Holds the field about points to the estimates of 192 bits, from all scales.
 fn field_agrees(fractal: &Mandelbulb, radii: &[f64], name: &str) {
     let set = Set::new(fractal, 400);
     for (&radius, anchor) in radii.iter().zip(in_parallel(radii, |&r| anchor_under(fractal, r))) {
@@ -109,7 +109,7 @@ fn field_agrees(fractal: &Mandelbulb, radii: &[f64], name: &str) {
     }
 }
 
-/// Estimates in f64 against those of 256 bits, about points as near to the axis as one likes.
+/// Estimates in f64 against those of 192 bits, about points as near to the axis as one likes.
 #[test]
 fn estimates_beside_the_axis_agree_with_the_march() {
     for power in [4.0, 8.0, 16.0] {

@@ -1,4 +1,4 @@
-//! The mathematics of deep views with numbers of 256 bits.
+//! The mathematics of deep views with numbers of 192 bits.
 //!
 //! | file | what it tests |
 //! |---|---|

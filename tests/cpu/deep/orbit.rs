@@ -1,10 +1,10 @@
-//! The orbits of 256 bits against differences, and against the oracle in f64 where that is enough.
+//! The orbits of 192 bits against differences, and against the oracle in f64 where that is enough.
 
 use glam::DVec3;
 use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 use mandelight_test_support::{
     deep::{
-        arithmetic::{Real, rounded},
+        arithmetic::{Number, Real, rounded},
         orbit::{End, Set},
     },
     oracle::estimate,

@@ -10,7 +10,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        arithmetic::{Point, Real, moved},
+        arithmetic::{Number, Point, Real, moved},
         orbit::Set,
         rays::{self, SetView, Size},
         views::{self, ANCHORS, SCALES},
@@ -109,7 +109,7 @@ struct Look {
 }
 
 fn look(scene: &Scene, size: Size) -> Look {
-    let looking = SetView::new(scene, size, views::plenty(scene));
+    let looking = SetView::exact(scene, size, views::plenty(scene));
     let pixels: Vec<_> = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])).collect();
     let both = in_parallel(&pixels, |&pixel| {
         let centre = rays::centre(pixel);

@@ -1,11 +1,15 @@
-//! The deep views: anchors that lie on the surface, and orbits that are long enough.
+//! The deep views: anchors that lie on the surface, orbits that are long enough, and numbers that are fine enough.
 
 use mandelight::{formula::mandelbulb::Mandelbulb, gpu::device::in_parallel};
-use mandelight_test_support::deep::{
-    arithmetic::Real,
-    orbit::Set,
-    rays::{SetView, centre},
-    views::{ANCHORS, SMALL, plenty},
+use mandelight_test_support::{
+    deep::{
+        arithmetic::{Number, Real},
+        orbit::Set,
+        random_views::random_view,
+        rays::{SetView, centre, pixels},
+        views::{ANCHORS, SMALL, plenty},
+    },
+    random::Random,
 };
 
 /// Orbits of points that rays visit leave before they are cut, so that longer ones change nothing.
@@ -13,7 +17,7 @@ use mandelight_test_support::deep::{
 fn plenty_of_steps_is_enough() {
     let views: Vec<_> = ANCHORS.iter().map(|anchor| anchor.scene(anchor.deepest)).collect();
     in_parallel(&views, |scene| {
-        let looking = SetView::new(scene, SMALL, plenty(scene));
+        let looking = SetView::exact(scene, SMALL, plenty(scene));
         for pixel in [[2, 2], [6, 4], [9, 5]] {
             let depth = looking.depth(pixel).expect("a hit");
             let point = looking.at(looking.direction(centre(pixel)), depth);
@@ -40,4 +44,46 @@ fn anchors_are_on_the_surface() {
             anchor.name
         );
     }
+}
+
+/// Random views, from 1 to 1e-10 scene units.
+const VIEWS: usize = 24;
+
+/// Where f64 follows the orbits, rays end where those of 192 bits do, and the same depths are right.
+#[test]
+fn views_in_f64_are_those_of_more_digits() {
+    let mut random = Random(0x5EED_F640);
+    let (mut coarse_views, mut fine_views, mut hits) = (0, 0, 0);
+    let mut apart = Vec::new();
+    while coarse_views + fine_views < VIEWS {
+        let Some(view) = random_view(&mut random, 1e-10) else { continue };
+        let iterations = plenty(&view.scene);
+        let Some(coarse) = SetView::in_f64(&view.scene, SMALL, iterations) else {
+            fine_views += 1;
+            continue;
+        };
+        coarse_views += 1;
+        let fine = SetView::exact(&view.scene, SMALL, iterations);
+        let pixels: Vec<_> = pixels(SMALL).collect();
+        let rays = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
+            let depths = [coarse.depth(pixel), fine.depth(pixel)];
+            // Verdicts take longer.
+            let direction = fine.direction(centre(pixel));
+            let is_judged = index % 4 == 0;
+            let verdicts = is_judged
+                .then(|| [coarse.judge(direction, depths[1]), fine.judge(direction, depths[1])]);
+            (depths, verdicts)
+        });
+        hits += rays.iter().filter(|(depths, _)| depths.iter().any(Option::is_some)).count();
+        apart.extend(rays.into_iter().filter(|(depths, verdicts)| {
+            let is_apart = match *depths {
+                [Some(a), Some(b)] => (a - b).abs() > 0.01 * fine.footprint(b),
+                [a, b] => a.is_some() != b.is_some(),
+            };
+            is_apart || verdicts.is_some_and(|[a, b]| a != b)
+        }));
+    }
+    println!("{coarse_views} views in f64, {} of {hits} rays apart: {apart:?}", apart.len());
+    assert!(coarse_views >= 10 && fine_views >= 2, "{coarse_views} and {fine_views} views");
+    assert!(hits > 1000 && apart.len() * 1000 <= hits, "{} of {hits} rays: {apart:?}", apart.len());
 }

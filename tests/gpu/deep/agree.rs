@@ -40,7 +40,7 @@ struct Comparison {
 }
 
 fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Comparison {
-    let looking = SetView::new(scene, size, views::plenty(scene));
+    let looking = SetView::exact(scene, size, views::plenty(scene));
     let pixels: Vec<_> = pixels(size).step_by(every).collect();
     let both = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
         let found = looking.hit_at(samples.depth[index]);

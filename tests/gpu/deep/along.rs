@@ -10,7 +10,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        arithmetic::{Point, Real},
+        arithmetic::{Number, Point, Real, sum},
         orbit::Estimate,
         rays::{SetView, centre},
         views::{self, ANCHORS},
@@ -48,8 +48,8 @@ fn asked(scene: &Scene, looking: &SetView<'_>, space: &RenderSpace) -> Vec<Asked
         let depth = looking.depth(pixel)? / space.scale();
         Some(PLACES.map(|part| {
             let offset = (eye + part * depth * direction).as_vec3().as_dvec3();
-            let way = offset.to_array().map(|v| &Real::from_f64(v) * &scale);
-            Asked { offset, point: [0, 1, 2].map(|i| &begins[i] + &way[i]) }
+            let way = offset.to_array().map(|v| Real::from_f64(v) * scale);
+            Asked { offset, point: sum(&begins, &way) }
         }))
     });
     found.into_iter().flatten().flatten().collect()
@@ -60,7 +60,7 @@ fn estimates_agree(power: f64) {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
         for scale in anchor.scales() {
             let (scene, size) = (probe::with_traps(anchor.scene(scale)), views::SMALL);
-            let looking = SetView::new(&scene, size, views::plenty(&scene));
+            let looking = SetView::exact(&scene, size, views::plenty(&scene));
             let space = RenderSpace::of(&scene, Region::whole(views::size(scale)));
             let asked = asked(&scene, &looking, &space);
             let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();

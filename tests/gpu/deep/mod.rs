@@ -1,4 +1,4 @@
-//! The kernels' deepest views against a march with numbers of 256 bits.
+//! The kernels' deepest views against a march with numbers of 192 bits.
 //!
 //! | file | what it tests |
 //! |---|---|

@@ -92,7 +92,7 @@ fn differences(scene: &Scene) -> Differences {
             .then(|| {
                 let point = rays.at(pixel, depth);
                 let on_plane = on_section(scene, point, depth);
-                on_plane.or_else(|| gradient(&rays.scene.fractal, point, 1e-8 * depth))
+                on_plane.or_else(|| gradient(&rays.orbits, point, 1e-8 * depth))
             })
             .flatten();
         (HIT_FACTORS.map(|factor| rays.march(pixel, factor)), normal)

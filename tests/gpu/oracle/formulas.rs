@@ -7,7 +7,9 @@ use mandelight::{
     gpu::device::in_parallel,
     scene::Scene,
 };
-use mandelight_test_support::{oracle::orbits, probe, random::Random, statistics::quantile};
+use mandelight_test_support::{
+    oracle::orbits::Orbits, probe, random::Random, statistics::quantile,
+};
 
 /// The fractals that are compared: each text as it is, with other values, and in its Julia form.
 fn fractals() -> Vec<Fractal> {
@@ -97,10 +99,11 @@ fn texts_agree_with_the_oracle_at_random_points() {
         let points = points(&fractal, 3000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
         let field = fractal.formula().distance_field(&fractal);
+        let orbits = Orbits::of(&fractal);
         let expected = in_parallel(&points, |&point| {
             let moved = point + DVec3::splat(1e-6 * point.length());
-            let [here, beside] = [point, moved].map(|point| orbits::distance(&fractal, point));
-            (here, (beside - here).abs(), orbits::orbit(&fractal, point))
+            let [here, beside] = [point, moved].map(|point| orbits.distance(point));
+            (here, (beside - here).abs(), orbits.orbit(point))
         });
         let (mut off, mut host_off, mut color_off) = (Vec::new(), Vec::new(), Vec::new());
         for ((point, answer), (distance, sensitivity, end)) in
@@ -181,9 +184,10 @@ fn gradients_of_texts_agree_with_the_oracle() {
         let scene = whole(&fractal);
         let points = points(&fractal, 2000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
+        let orbits = Orbits::of(&fractal);
         let expected = in_parallel(&points, |&point| {
-            let distance = orbits::distance(&fractal, point);
-            (distance >= 1e-3).then(|| gradient(&fractal, point, 1e-5 * distance)).flatten()
+            let distance = orbits.distance(point);
+            (distance >= 1e-3).then(|| gradient(&orbits, point, 1e-5 * distance)).flatten()
         });
         let pairs = answers.iter().zip(expected).filter_map(|(answer, expected)| {
             Some(expected?.angle_between(answer.gradient.as_dvec3()).to_degrees())
@@ -206,15 +210,11 @@ fn gradients_of_texts_agree_with_the_oracle() {
 }
 
 /// The gradient by central differences; none where two spacings disagree, as at an edge.
-pub fn gradient(fractal: &Fractal, point: DVec3, spacing: f64) -> Option<DVec3> {
-    let derived = orbits::is_derived(fractal);
-    let steps = orbits::orbit(fractal, point).steps;
+pub fn gradient(orbits: &Orbits, point: DVec3, spacing: f64) -> Option<DVec3> {
+    let derived = orbits.is_derived();
+    let steps = orbits.orbit(point).steps;
     let value = |point: DVec3| {
-        if derived {
-            orbits::height(fractal, point, steps)
-        } else {
-            orbits::distance(fractal, point)
-        }
+        if derived { orbits.height(point, steps) } else { orbits.distance(point) }
     };
     let slope = |spacing: f64| {
         let along = |axis: DVec3| value(point + spacing * axis) - value(point - spacing * axis);

@@ -7,7 +7,7 @@ use mandelight::{
     scene::{Axis, ColorSource, Coloring, Scene},
 };
 use mandelight_test_support::{
-    oracle::{estimate, folds, light, orbits},
+    oracle::{estimate, folds, light, orbits::Orbits},
     probe::{self, Answer},
     random::Random,
     statistics::quantile,
@@ -53,12 +53,12 @@ fn orbit_traps_of_every_shape_agree_with_the_oracle() {
             scene.surface.second_layer.amount = 0.5;
             let points = points(2000, 0.8 * radius(&scene.fractal));
             let answers = probe::ask(&scene, &points, false).expect("answers");
+            let (orbit, scale) = (escaping_orbits(&scene.fractal), trap_scale(&scene));
             let mut off = Vec::new();
             for (&point, answer) in points.iter().zip(&answers) {
-                let Some(seen) = orbit(&scene.fractal, point) else { continue };
+                let Some(seen) = orbit(point) else { continue };
                 for (found, coloring) in answer.traps.into_iter().zip([first, second]) {
                     let expected = seen.iter().map(|&z| light::trap_distance(coloring, z));
-                    let scale = trap_scale(&scene);
                     let expected = (scale * expected.fold(f64::INFINITY, f64::min)).min(2.0);
                     off.push((f64::from(found) - expected).abs());
                 }
@@ -70,15 +70,20 @@ fn orbit_traps_of_every_shape_agree_with_the_oracle() {
     }
 }
 
-/// Orbit points after the start, of orbits that escape.
-fn orbit(fractal: &Fractal, point: DVec3) -> Option<Vec<DVec3>> {
+/// Gives orbits' points after the start, of orbits that escape.
+fn escaping_orbits(fractal: &Fractal) -> Box<dyn Fn(DVec3) -> Option<Vec<DVec3>>> {
     if fractal.formula().id() == "mandelbulb" {
         let bulb = Mandelbulb::of(fractal);
-        let orbit = estimate::orbit(&bulb, point);
-        return (orbit.r > bulb.bailout).then_some(orbit.points);
+        return Box::new(move |point| {
+            let orbit = estimate::orbit(&bulb, point);
+            (orbit.r > bulb.bailout).then_some(orbit.points)
+        });
     }
-    let end = orbits::orbit(fractal, point);
-    end.escaped.then(|| end.points.iter().map(|z| z.xyz()).collect())
+    let orbits = Orbits::of(fractal);
+    Box::new(move |point| {
+        let end = orbits.orbit(point);
+        end.escaped.then(|| end.points.iter().map(|z| z.xyz()).collect())
+    })
 }
 
 /// Large sets have their traps scaled to the range of colours.

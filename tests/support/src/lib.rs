@@ -15,7 +15,7 @@
 //! | `descent` | a person who only turns the wheel |
 //! | `dives`, `stereo` | scenes of several tests |
 //! | `oracle` | the thesis's formulas in f64, written without a look at `src/fractal` or the shaders |
-//! | `deep` | the same with numbers of 256 bits, for the deepest views |
+//! | `deep` | the same with numbers of 192 bits, for views at any depth |
 //! | `scenes`, `hostile` | any valid scene; scenes that are hard on the kernels |
 //! | `random` | numbers that come out the same each time |
 //! | `statistics` | quantiles |

@@ -1,25 +1,78 @@
-//! Numbers of 256 bits: what the orbits of the deepest views are followed with.
+//! Real numbers: f64, and numbers of 192 bits, which the orbits of deep views are followed with.
 //!
-//! Orbits lose about as many digits as the view is deep; 256 bits are 77 digits, so that at a
-//! zoom of 1e-27 some 45 are left. Sums and products are rounded to the nearest number, ties to even
+//! Orbits lose about as many digits as the view is deep; 192 bits are 57 digits, so that at a
+//! zoom of 1e-27 some 30 are left. Sums and products are rounded to the nearest number, ties to even
 //! (IEEE 754, 4.3.1), as `astro-float` rounds them, without its allocations.
 
 use std::{
     cmp::Ordering,
+    fmt::Debug,
     ops::{Add, Mul, Neg, Sub},
 };
 
 use astro_float_num::{BigFloat, Consts, Radix, RoundingMode, Sign};
 
-/// Bits of every number's mantissa.
-const BITS: usize = 256;
-/// The same in words.
-const WORDS: usize = 4;
+/// A type of real numbers, to follow orbits with.
+pub trait Number:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    fn from_f64(value: f64) -> Self;
+
+    /// The nearest f64, but for a last bit.
+    fn to_f64(self) -> f64;
+
+    /// The number that a decimal text says.
+    fn parse(text: &str) -> Self;
+
+    fn is_zero(self) -> bool;
+
+    fn doubled(self) -> Self;
+
+    /// 1 / √self of a positive number.
+    fn inverse_sqrt(self) -> Self;
+}
+
+impl Number for f64 {
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    fn parse(text: &str) -> Self {
+        text.parse().unwrap_or_else(|_| panic!("{text:?} is no decimal number"))
+    }
+
+    fn is_zero(self) -> bool {
+        self == 0.0
+    }
+
+    fn doubled(self) -> Self {
+        2.0 * self
+    }
+
+    fn inverse_sqrt(self) -> Self {
+        self.sqrt().recip()
+    }
+}
+
+/// Bits of the mantissa of a [`Real`].
+pub const BITS: usize = 64 * WORDS;
+const WORDS: usize = 3;
 const ROUNDING: RoundingMode = RoundingMode::ToEven;
 /// From 53 right bits: each step of Newton's method doubles them.
-const NEWTON_STEPS: u32 = 3;
+const NEWTON_STEPS: u32 = 2;
 
-/// A real number: ± 0.mantissa · 2^exponent.
+/// A number of [`BITS`] bits: ± 0.mantissa · 2^exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Real {
     is_negative: bool,
@@ -30,8 +83,8 @@ pub struct Real {
 
 const ZERO: Real = Real { is_negative: false, exponent: 0, mantissa: [0; WORDS] };
 
-impl Real {
-    pub fn from_f64(value: f64) -> Self {
+impl Number for Real {
+    fn from_f64(value: f64) -> Self {
         assert!(value.is_finite(), "{value} is no number");
         if value == 0.0 {
             return ZERO;
@@ -40,26 +93,59 @@ impl Real {
         let (normal, raised) =
             if is_subnormal { (value * 2.0_f64.powi(64), 64) } else { (value, 0) };
         let bits = normal.to_bits();
-        let highest = (bits << 11) | 1 << 63;
+        let mut mantissa = [0; WORDS];
+        mantissa[WORDS - 1] = (bits << 11) | 1 << 63;
         let exponent = (bits >> 52 & 0x7FF) as i32 - 1022 - raised;
-        Self { is_negative: value < 0.0, exponent, mantissa: [0, 0, 0, highest] }
+        Self { is_negative: value < 0.0, exponent, mantissa }
     }
 
-    /// The number that a decimal text says.
-    pub fn parse(text: &str) -> Self {
+    /// The upper 64 bits rounded once more.
+    fn to_f64(self) -> f64 {
+        let upper = self.mantissa[WORDS - 1] as f64 * 2.0_f64.powi(-64);
+        // In two factors: 2^exponent alone may be out of range where the product is not.
+        let half = self.exponent / 2;
+        let size = upper * 2.0_f64.powi(half) * 2.0_f64.powi(self.exponent - half);
+        if self.is_negative { -size } else { size }
+    }
+
+    fn parse(text: &str) -> Self {
         let mut constants = Consts::new().expect("memory for constants");
         let parsed = BigFloat::parse(text, Radix::Dec, BITS, ROUNDING, &mut constants);
         assert!(!parsed.is_nan(), "{text:?} is no decimal number");
         Self::from_big(&parsed)
     }
 
-    /// The number of 256 bits that `astro-float` has.
+    fn is_zero(self) -> bool {
+        self.mantissa[WORDS - 1] == 0
+    }
+
+    fn doubled(self) -> Self {
+        self.scaled(1)
+    }
+
+    /// By Newton's method.
+    fn inverse_sqrt(self) -> Self {
+        let rough = self.to_f64();
+        if !(1e-200..1e200).contains(&rough) {
+            let root = self.to_big().sqrt(BITS, ROUNDING);
+            return Self::from_big(&BigFloat::from_f64(1.0, BITS).div(&root, BITS, ROUNDING));
+        }
+        let one = Self::from_f64(1.0);
+        (0..NEWTON_STEPS).fold(Self::from_f64(rough.sqrt().recip()), |inverse, _| {
+            let short = one - self * (inverse * inverse);
+            inverse + (inverse * short).scaled(-1)
+        })
+    }
+}
+
+impl Real {
+    /// The number of [`BITS`] bits that `astro-float` has.
     pub fn from_big(big: &BigFloat) -> Self {
         let (words, _, sign, exponent, _) = big.as_raw_parts().expect("a finite number");
         if big.is_zero() {
             return ZERO;
         }
-        let mantissa = words.try_into().expect("words of 256 bits");
+        let mantissa = words.try_into().expect("as many words");
         Self { is_negative: sign == Sign::Neg, exponent, mantissa }
     }
 
@@ -72,15 +158,6 @@ impl Real {
         BigFloat::from_raw_parts(&self.mantissa, BITS, sign, self.exponent, false)
     }
 
-    /// The nearest f64, but for a last bit: the upper 64 bits rounded once more.
-    pub fn to_f64(&self) -> f64 {
-        let upper = self.mantissa[WORDS - 1] as f64 * 2.0_f64.powi(-64);
-        // In two factors: 2^exponent alone may be out of range where the product is not.
-        let half = self.exponent / 2;
-        let size = upper * 2.0_f64.powi(half) * 2.0_f64.powi(self.exponent - half);
-        if self.is_negative { -size } else { size }
-    }
-
     /// As a decimal number of about 50 digits.
     pub fn to_decimal(&self) -> String {
         let mut constants = Consts::new().expect("memory for constants");
@@ -90,28 +167,9 @@ impl Real {
         format!("{digits}e{}", exponent.trim_start_matches('+'))
     }
 
-    pub fn is_zero(&self) -> bool {
-        self.mantissa[WORDS - 1] == 0
-    }
-
-    pub fn doubled(&self) -> Self {
-        if self.is_zero() { ZERO } else { Self { exponent: self.exponent + 1, ..*self } }
-    }
-
-    /// 1 / √self of a positive number, by Newton's method.
-    pub fn inverse_sqrt(&self) -> Self {
-        let rough = self.to_f64();
-        if !(1e-200..1e200).contains(&rough) {
-            let root = self.to_big().sqrt(BITS, ROUNDING);
-            return Self::from_big(&BigFloat::from_f64(1.0, BITS).div(&root, BITS, ROUNDING));
-        }
-        let mut inverse = Self::from_f64(1.0 / rough.sqrt());
-        let (half, one) = (Self::from_f64(0.5), Self::from_f64(1.0));
-        for _ in 0..NEWTON_STEPS {
-            let short = &one - &(self * &(&inverse * &inverse));
-            inverse = &inverse + &(&inverse * &(&short * &half));
-        }
-        inverse
+    /// self · 2^power.
+    fn scaled(self, power: i32) -> Self {
+        if self.is_zero() { ZERO } else { Self { exponent: self.exponent + power, ..self } }
     }
 
     /// Orders by size alone.
@@ -143,7 +201,8 @@ impl Real {
     fn plus_smaller(&self, small: &Self) -> Self {
         let distance = (i64::from(self.exponent) - i64::from(small.exponent)) as u64;
         let (aside, is_more) = shifted(&small.mantissa, distance);
-        let mut sum = [0, self.mantissa[0], self.mantissa[1], self.mantissa[2], self.mantissa[3]];
+        let [low, middle, high] = self.mantissa;
+        let mut sum = [0, low, middle, high];
         let (mut exponent, mut is_more) = (self.exponent, is_more);
         if self.is_negative == small.is_negative {
             let mut carry = false;
@@ -175,8 +234,8 @@ impl Real {
             }
             exponent -= (64 * words as u32 + bits) as i32;
         }
-        let mantissa = [sum[1], sum[2], sum[3], sum[4]];
-        Self { is_negative: self.is_negative, exponent, mantissa }.rounded(sum[0], is_more)
+        let [below, mantissa @ ..] = sum;
+        Self { is_negative: self.is_negative, exponent, mantissa }.rounded(below, is_more)
     }
 }
 
@@ -195,7 +254,7 @@ fn borrowing_sub(a: u64, b: u64, borrow: bool) -> (u64, bool) {
 /// A mantissa with one more word below, shifted down; and whether a bit was lost that was set.
 fn shifted(mantissa: &[u64; WORDS], distance: u64) -> ([u64; WORDS + 1], bool) {
     let mut found = [0; WORDS + 1];
-    let (words, bits) = ((distance / 64).min(9) as usize, distance % 64);
+    let (words, bits) = ((distance / 64).min(2 * WORDS as u64 + 1) as usize, distance % 64);
     let at = |i: usize| if (1..=WORDS).contains(&i) { mantissa[i - 1] } else { 0 };
     for (i, word) in found.iter_mut().enumerate() {
         *word = at(i + words) >> bits;
@@ -207,25 +266,25 @@ fn shifted(mantissa: &[u64; WORDS], distance: u64) -> ([u64; WORDS + 1], bool) {
     (found, is_lost)
 }
 
-impl Add for &Real {
-    type Output = Real;
-    fn add(self, other: Self) -> Real {
+impl Add for Real {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
         let (large, small) =
-            if self.compare_size(other).is_lt() { (other, self) } else { (self, other) };
+            if self.compare_size(&other).is_lt() { (&other, &self) } else { (&self, &other) };
         if small.is_zero() { *large } else { large.plus_smaller(small) }
     }
 }
 
-impl Sub for &Real {
-    type Output = Real;
-    fn sub(self, other: Self) -> Real {
-        self + &-other
+impl Sub for Real {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
     }
 }
 
-impl Mul for &Real {
-    type Output = Real;
-    fn mul(self, other: Self) -> Real {
+impl Mul for Real {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
         if self.is_zero() || other.is_zero() {
             return ZERO;
         }
@@ -247,56 +306,53 @@ impl Mul for &Real {
             product[0] <<= 1;
             exponent -= 1;
         }
-        let [a, b, c, below, mantissa @ ..] = product;
+        let [a, b, below, mantissa @ ..] = product;
         let is_negative = self.is_negative != other.is_negative;
-        Real { is_negative, exponent, mantissa }.rounded(below, a | b | c != 0)
+        Self { is_negative, exponent, mantissa }.rounded(below, a | b != 0)
     }
 }
 
-impl Neg for &Real {
-    type Output = Real;
-    fn neg(self) -> Real {
-        Real { is_negative: !self.is_negative && !self.is_zero(), ..*self }
+impl Neg for Real {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { is_negative: !self.is_negative && !self.is_zero(), ..self }
     }
 }
 
 /// A complex number.
-#[derive(Clone, Debug)]
-pub struct Complex {
-    pub re: Real,
-    pub im: Real,
+#[derive(Clone, Copy, Debug)]
+pub struct Complex<N> {
+    pub re: N,
+    pub im: N,
 }
 
-impl Complex {
-    pub fn times(&self, other: &Self) -> Self {
+impl<N: Number> Complex<N> {
+    pub fn times(self, other: Self) -> Self {
         Self {
-            re: &(&self.re * &other.re) - &(&self.im * &other.im),
-            im: &(&self.re * &other.im) + &(&self.im * &other.re),
+            re: self.re * other.re - self.im * other.im,
+            im: self.re * other.im + self.im * other.re,
         }
     }
 
-    pub fn squared(&self) -> Self {
-        Self {
-            re: &(&self.re + &self.im) * &(&self.re - &self.im),
-            im: (&self.re * &self.im).doubled(),
-        }
+    pub fn squared(self) -> Self {
+        Self { re: (self.re + self.im) * (self.re - self.im), im: (self.re * self.im).doubled() }
     }
 
     /// A power: exact to the last bits where it is whole, else of the principal angle, in f64.
-    pub fn real_power(&self, exponent: f64) -> Self {
+    pub fn real_power(self, exponent: f64) -> Self {
         if exponent.fract() == 0.0 {
             return self.power(exponent as u32);
         }
         let (re, im) = (self.re.to_f64(), self.im.to_f64());
         let (sine, cosine) = (exponent * im.atan2(re)).sin_cos();
         let radius = re.hypot(im).powf(exponent);
-        Self { re: Real::from_f64(radius * cosine), im: Real::from_f64(radius * sine) }
+        Self { re: N::from_f64(radius * cosine), im: N::from_f64(radius * sine) }
     }
 
     /// A whole power of at least 1.
-    pub fn power(&self, exponent: u32) -> Self {
+    pub fn power(self, exponent: u32) -> Self {
         let mut bits = (0..exponent.ilog2()).rev();
-        bits.by_ref().fold(self.clone(), |product, bit| {
+        bits.by_ref().fold(self, |product, bit| {
             let square = product.squared();
             if exponent >> bit & 1 == 1 { square.times(self) } else { square }
         })
@@ -304,15 +360,24 @@ impl Complex {
 }
 
 /// A point of space.
-pub type Point = [Real; 3];
+pub type Point<N = Real> = [N; 3];
+
+/// The sum of two points' vectors.
+pub fn sum<N: Number>(a: &Point<N>, b: &Point<N>) -> Point<N> {
+    [0, 1, 2].map(|i| a[i] + b[i])
+}
+
+/// The difference of two points.
+pub fn difference<N: Number>(a: &Point<N>, b: &Point<N>) -> Point<N> {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
 
 /// `point` moved by a small way.
-pub fn moved(point: &Point, way: glam::DVec3) -> Point {
-    let [x, y, z] = way.to_array().map(Real::from_f64);
-    [&point[0] + &x, &point[1] + &y, &point[2] + &z]
+pub fn moved<N: Number>(point: &Point<N>, way: glam::DVec3) -> Point<N> {
+    sum(point, &way.to_array().map(N::from_f64))
 }
 
 /// The nearest f64s.
-pub fn rounded(point: &Point) -> glam::DVec3 {
-    glam::DVec3::from_array(point.each_ref().map(Real::to_f64))
+pub fn rounded<N: Number>(point: &Point<N>) -> glam::DVec3 {
+    glam::DVec3::from_array(point.map(N::to_f64))
 }

@@ -7,6 +7,7 @@ use glam::DVec3;
 use mandelight::formula::mandelbulb::Mandelbulb;
 
 use super::{
+    arithmetic::Number,
     orbit::Estimate,
     rays::{SetView, Way},
 };
@@ -41,7 +42,7 @@ pub enum Verdict {
     TooFar,
 }
 
-impl SetView<'_> {
+impl<N: Number> SetView<'_, N> {
     /// Judges the depth that a picture has along a direction; none is a miss.
     pub fn judge(&self, direction: DVec3, found: Option<f64>) -> Verdict {
         if found.is_some_and(|depth| !self.is_near(direction, depth)) {

@@ -1,9 +1,9 @@
-//! The deepest views by a march with numbers of 256 bits, written from the thesis's formulas
+//! Views at any depth by a march with numbers of 192 bits, written from the thesis's formulas
 //! without a look at `src/fractal` or the shaders.
 //!
 //! | module | contents |
 //! |---|---|
-//! | `arithmetic` | real and complex numbers of 256 bits |
+//! | `arithmetic` | real and complex numbers: f64, and of 192 bits |
 //! | `brackets` | the depths that a ray may end at |
 //! | `orbit` | distance estimates, and how far rays may step |
 //! | `random_views` | views of random places at random depths |

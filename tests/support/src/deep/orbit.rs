@@ -8,7 +8,7 @@
 use glam::{DMat3, DVec3};
 use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 
-use super::arithmetic::{Complex, Point, Real, moved, rounded};
+use super::arithmetic::{Complex, Number, Point, Real, moved, rounded, sum};
 
 /// Part of the estimate by the derivative's norm that a step covers.
 const STEP_PART: f64 = 0.5;
@@ -19,13 +19,13 @@ const STRETCH_MAX: f64 = 1e6;
 /// Stands in for a distance of zero from the axis, so that its reciprocal is finite.
 const MIN_RADIUS: f64 = 1e-90;
 
-/// A Mandelbulb or Julia set.
-pub struct Set {
+/// A Mandelbulb or Julia set, whose orbits are followed with numbers `N`.
+pub struct Set<N = Real> {
     power: f64,
     iterations: u32,
     bailout: f64,
     is_mirrored: bool,
-    julia_constant: Option<Point>,
+    julia_constant: Option<Point<N>>,
 }
 
 /// What an orbit says of the way to the surface.
@@ -44,7 +44,7 @@ pub struct Estimate {
     pub traps: [f64; 2],
 }
 
-impl Set {
+impl<N: Number> Set<N> {
     /// `fractal`, with orbits of up to `iterations` steps.
     pub fn new(fractal: &Mandelbulb, iterations: u32) -> Self {
         Self {
@@ -52,12 +52,12 @@ impl Set {
             iterations,
             bailout: fractal.bailout,
             is_mirrored: fractal.sine == Sine::Negative,
-            julia_constant: fractal.julia.then(|| fractal.julia_constant.map(Real::from_f64)),
+            julia_constant: fractal.julia.then(|| fractal.julia_constant.map(N::from_f64)),
         }
     }
 
     /// What the orbit of `point` says. Steps need not care for what is smaller than `grain`.
-    pub fn estimate(&self, point: &Point, grain: f64) -> Estimate {
+    pub fn estimate(&self, point: &Point<N>, grain: f64) -> Estimate {
         let End { z, dr, jacobian, steps, traps } = self.follow(point, grain);
         let r = z.length();
         let mut smooth_iterations = f64::from(steps);
@@ -76,7 +76,7 @@ impl Set {
     }
 
     /// Follows the orbit of `point`.
-    pub fn follow(&self, point: &Point, grain: f64) -> End {
+    pub fn follow(&self, point: &Point<N>, grain: f64) -> End {
         let n = self.power;
         let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
         let mut z = *point;
@@ -92,7 +92,7 @@ impl Set {
             end.dr = n * end.z.length().powf(n - 1.0) * end.dr + one;
             let raised = self.raised(&z);
             end.jacobian.advance(n, one, &raised);
-            z = [0, 1, 2].map(|i| &raised.point[i] + &added[i]);
+            z = sum(&raised.point, added);
             end.z = rounded(&z);
             let seen = [end.z.length(), end.z.truncate().length()];
             end.traps = [0, 1].map(|i| end.traps[i].min(seen[i]));
@@ -101,23 +101,23 @@ impl Set {
     }
 
     /// zⁿ, and what becomes of small displacements.
-    pub fn raised(&self, point: &Point) -> Raised {
-        let [x, y, z] = point;
-        let square = &(x * x) + &(y * y);
+    pub fn raised(&self, point: &Point<N>) -> Raised<N> {
+        let [x, y, z] = *point;
+        let square = x * x + y * y;
         let (rho, u) = if square.is_zero() {
-            let zero = Real::from_f64(0.0);
-            (zero, Complex { re: Real::from_f64(1.0), im: zero })
+            let zero = N::from_f64(0.0);
+            (zero, Complex { re: N::from_f64(1.0), im: zero })
         } else {
             let inverse = square.inverse_sqrt();
-            (&square * &inverse, Complex { re: x * &inverse, im: y * &inverse })
+            (square * inverse, Complex { re: x * inverse, im: y * inverse })
         };
-        let w = Complex { re: rho, im: *z };
+        let w = Complex { re: rho, im: z };
         let (mut meridian, parallel) = (w.real_power(self.power), u.real_power(self.power));
-        let before = Frame::new(&w, &u);
+        let before = Frame::new(w, u);
         if self.is_mirrored {
-            meridian.im = -&meridian.im;
+            meridian.im = -meridian.im;
         }
-        let after = Frame::new(&meridian, &parallel);
+        let after = Frame::new(meridian, parallel);
         // All lengths grow by n r^(n−1), but parallels by as much as their radius has grown.
         let (n, radius) = (self.power, before.radius);
         let growth = if radius > 0.0 { n * after.radius / radius } else { 0.0 };
@@ -125,13 +125,13 @@ impl Set {
         let along = n * after.from_axis / before.from_axis.max(f64::MIN_POSITIVE);
         let stretch = DVec3::new(growth, mirror, along.clamp(-STRETCH_MAX, STRETCH_MAX));
         let raising = after.axes * DMat3::from_diagonal(stretch) * before.axes.transpose();
-        let point = [&meridian.re * &parallel.re, &meridian.re * &parallel.im, meridian.im];
+        let point = [meridian.re * parallel.re, meridian.re * parallel.im, meridian.im];
         let longitude = before.axes.z_axis / before.from_axis.max(MIN_RADIUS);
         Raised { point, raising, longitude, parallel: after.axes.z_axis }
     }
 
     /// The estimate's gradient from central differences, `spacing` apart.
-    pub fn gradient(&self, point: &Point, spacing: f64) -> DVec3 {
+    pub fn gradient(&self, point: &Point<N>, spacing: f64) -> DVec3 {
         let at = |way: DVec3| self.estimate(&moved(point, way), spacing).distance;
         let along = |axis: DVec3| (at(axis * spacing) - at(-axis * spacing)) / (2.0 * spacing);
         DVec3::from_array(DVec3::AXES.map(along))
@@ -168,7 +168,8 @@ impl OrbitJacobian {
     }
 
     /// One step of power `n`; `one` is the derivative of what it adds.
-    fn advance(&mut self, n: f64, one: f64, Raised { raising, longitude, parallel, .. }: &Raised) {
+    fn advance<N>(&mut self, n: f64, one: f64, raised: &Raised<N>) {
+        let Raised { raising, longitude, parallel, .. } = raised;
         let identity = DMat3::from_diagonal(DVec3::splat(one));
         self.derivative = *raising * self.derivative + identity;
         self.turn = n * (self.turn + self.unturned.transpose() * *longitude);
@@ -181,8 +182,8 @@ impl OrbitJacobian {
 }
 
 /// A power and its derivatives.
-pub struct Raised {
-    pub point: Point,
+pub struct Raised<N> {
+    pub point: Point<N>,
     pub raising: DMat3,
     /// Gradient of the longitude before.
     longitude: DVec3,
@@ -209,8 +210,8 @@ struct Frame {
 
 impl Frame {
     /// Of the point at `w` = ρ + i z on the meridian of `u`.
-    fn new(w: &Complex, u: &Complex) -> Self {
-        let [from_axis, z, x, y] = [&w.re, &w.im, &u.re, &u.im].map(Real::to_f64);
+    fn new<N: Number>(w: Complex<N>, u: Complex<N>) -> Self {
+        let [from_axis, z, x, y] = [w.re, w.im, u.re, u.im].map(N::to_f64);
         let radius = from_axis.hypot(z);
         let (cosine, sine) =
             if radius > 0.0 { (from_axis / radius, z / radius) } else { (1.0, 0.0) };

@@ -75,7 +75,7 @@ pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<R
             let name = format!("power {power}, {sine:?}, julia {julia}, from {distance:.1e}");
             return Some(RandomView { name, scene });
         }
-        let looking = SetView::new(&scene, SIZE, plenty(&scene));
+        let looking = SetView::exact(&scene, SIZE, plenty(&scene));
         // A ray near to the middle of the picture, of some that meet the surface.
         let depth = (0..8).find_map(|_| {
             let at = random.ndc() * 0.25 + 0.5;
@@ -94,9 +94,9 @@ pub fn random_view_of(power: f64, random: &mut Random, nearest: f64) -> Option<R
 ///
 /// Where orbits are slow, the set of the scene's own iterations is thicker than the set itself, and may hold the eye.
 fn is_outside(scene: &Scene, distance: f64) -> bool {
-    let footprint = SetView::new(scene, COARSEST, 0).footprint(distance);
+    let footprint = SetView::exact(scene, COARSEST, 0).footprint(distance);
     let own = scene.fractal.formula().iterations_for(&scene.fractal, footprint);
-    let looking = SetView::new(scene, COARSEST, own);
+    let looking = SetView::exact(scene, COARSEST, own);
     looking.estimate(looking.direction([0.0, 0.0]), 0.0).distance > 0.0
 }
 

@@ -14,7 +14,7 @@ use mandelight::{
 };
 
 use super::{
-    arithmetic::{Point, Real, moved, rounded},
+    arithmetic::{Number, Point, Real, moved, rounded},
     orbit::{Estimate, Set},
 };
 
@@ -31,6 +31,9 @@ const MAX_STEPS: u32 = 20_000;
 /// At powers below 4, where a ray must be near for a hit: shares of the hit distance past the entry.
 const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 
+/// The least hit distance at the pivot of views whose orbits f64 follows, scene units: seven of its digits are left there.
+const LEAST_OF_F64: f64 = 1e-9;
+
 /// A picture's width and height in pixels.
 pub type Size = [u32; 2];
 
@@ -44,21 +47,48 @@ pub enum Way<T> {
     Creeping(f64),
 }
 
-/// A set and the camera that looks at it.
-pub struct SetView<'a> {
-    pub set: Set,
+/// A set and the camera that looks at it, by orbits of numbers `N`.
+pub struct SetView<'a, N = Real> {
+    pub set: Set<N>,
     pub size: Size,
     scene: &'a Scene,
-    eye: Point,
+    eye: Point<N>,
     unit: f64,
     /// How many of the points of [`STILL`] must be near.
     near_points: usize,
     orbit_steps: AtomicU64,
 }
 
-impl<'a> SetView<'a> {
+impl<'a> SetView<'a, f64> {
+    /// Looks at `scene` by orbits of f64; none where these are too coarse.
+    pub fn in_f64(scene: &'a Scene, size: Size, iterations: u32) -> Option<Self> {
+        let looking = Self::new(scene, size, iterations);
+        (looking.hit_distance(looking.unit) >= LEAST_OF_F64).then_some(looking)
+    }
+}
+
+impl<'a> SetView<'a, Real> {
+    /// Looks at `scene` by orbits of 192 bits.
+    pub fn exact(scene: &'a Scene, size: Size, iterations: u32) -> Self {
+        Self::new(scene, size, iterations)
+    }
+
+    /// The normal at `depth` of a pixel's ray: of the point, or of the pixel's footprint where the estimate ripples below
+    /// a pixel; turned to the eye.
+    pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
+        let direction = self.direction(centre(pixel));
+        let gradient =
+            self.set.gradient(&self.at(direction, depth), 1e-6 * self.hit_distance(depth));
+        if gradient != DVec3::ZERO && gradient.dot(direction) <= 0.0 {
+            return gradient.normalize();
+        }
+        self.footprint_normal(direction, depth, 2)
+    }
+}
+
+impl<'a, N: Number> SetView<'a, N> {
     /// Looks at `scene` with orbits of up to `iterations` steps.
-    pub fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
+    fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
         let position = &scene.camera.position.0;
         let model = FractalModel::new(&scene.fractal);
         let has_anchor = wants_anchor(&model, scene, Region::whole(size));
@@ -66,7 +96,7 @@ impl<'a> SetView<'a> {
             set: Set::new(&Mandelbulb::of(&scene.fractal), iterations),
             size,
             scene,
-            eye: position.each_ref().map(|v: &Precise| Real::parse(&v.to_string())),
+            eye: position.each_ref().map(|v: &Precise| N::parse(&v.to_string())),
             unit: scene.camera.view_unit(),
             near_points: if has_anchor { STILL.len() / 2 } else { STILL.len() },
             orbit_steps: AtomicU64::new(0),
@@ -94,7 +124,7 @@ impl<'a> SetView<'a> {
     }
 
     /// The point at `depth` along a direction.
-    pub fn at(&self, direction: DVec3, depth: f64) -> Point {
+    pub fn at(&self, direction: DVec3, depth: f64) -> Point<N> {
         moved(&self.eye, direction * depth)
     }
 
@@ -186,18 +216,6 @@ impl<'a> SetView<'a> {
     /// Depth at the centre of a pixel, counted from the upper left.
     pub fn depth(&self, pixel: [u32; 2]) -> Option<f64> {
         self.march(self.direction(centre(pixel)), |estimate| estimate.step)
-    }
-
-    /// The normal at `depth` of a pixel's ray: of the point, or of the pixel's footprint where the estimate ripples below
-    /// a pixel; turned to the eye.
-    pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
-        let direction = self.direction(centre(pixel));
-        let gradient =
-            self.set.gradient(&self.at(direction, depth), 1e-6 * self.hit_distance(depth));
-        if gradient != DVec3::ZERO && gradient.dot(direction) <= 0.0 {
-            return gradient.normalize();
-        }
-        self.footprint_normal(direction, depth, 2)
     }
 
     /// The normal of a pixel's footprint: the slope of the linear function that fits a grid in a cube best, turned to the

@@ -7,7 +7,7 @@ use mandelight::{
 };
 
 use super::{
-    orbits,
+    orbits::Orbits,
     rays::{self, Size},
 };
 
@@ -24,6 +24,8 @@ const MAX_STEPS: u32 = 6000;
 pub struct FormulaRays {
     /// The scene with the iterations that its picture has.
     pub scene: Scene,
+    /// The orbits of the scene's fractal.
+    pub orbits: Orbits,
     size: Size,
     bounding_radius: f64,
     /// Step of a ray over the estimate.
@@ -38,7 +40,8 @@ impl FormulaRays {
         let formula = scene.fractal.formula();
         let step = CAUTION * f64::from(formula.march_policy(&scene.fractal).ball_part);
         let bounding_radius = formula.distance_field(&scene.fractal).bounding_radius();
-        Self { scene, size, bounding_radius, step }
+        let orbits = Orbits::of(&scene.fractal);
+        Self { scene, orbits, size, bounding_radius, step }
     }
 
     /// Depth at which the ray of a pixel comes within `hit_factor` of the hit distance; none if it passes the set.
@@ -46,7 +49,7 @@ impl FormulaRays {
     /// With a factor below 1, hits of a formula whose hits are checked must last for 0.6 hit distances.
     /// The last depth, if steps run out.
     pub fn march(&self, pixel: [u32; 2], hit_factor: f64) -> Option<f64> {
-        let Self { scene, size, bounding_radius, step } = self;
+        let Self { scene, orbits, size, bounding_radius, step } = self;
         let fractal = &scene.fractal;
         let origin = scene.camera.position.to_dvec3();
         let direction = rays::direction(&scene.camera, *size, pixel);
@@ -65,7 +68,7 @@ impl FormulaRays {
             (0..=LASTING_POINTS).all(|i| {
                 let part = thickness * f64::from(i) / f64::from(LASTING_POINTS);
                 let s = t + part * hit_distance(t) / hit_factor;
-                orbits::distance(fractal, origin + s * direction) < hit_distance(s)
+                orbits.distance(origin + s * direction) < hit_distance(s)
             })
         };
         let mut band_reach = None;
@@ -80,9 +83,9 @@ impl FormulaRays {
         }
         if let Some(band_reach) = band_reach.filter(|_| t <= end) {
             let point = origin + t * direction;
-            let is_inside = !orbits::orbit(fractal, point).escaped;
+            let is_inside = !orbits.orbit(point).escaped;
             let reach = band_reach.max(hit_distance(t));
-            if is_inside || orbits::distance(fractal, point) < reach {
+            if is_inside || orbits.distance(point) < reach {
                 return Some(t);
             }
         }
@@ -90,7 +93,7 @@ impl FormulaRays {
             if t > end {
                 return None;
             }
-            let distance = orbits::distance(fractal, origin + t * direction);
+            let distance = orbits.distance(origin + t * direction);
             if distance < hit_distance(t) && (!checks_hits || lasts(t)) {
                 return Some(t);
             }

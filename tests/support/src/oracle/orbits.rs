@@ -11,9 +11,9 @@ use super::{
     transforms,
 };
 
-/// The steps of a fractal: one for a formula that draws alone.
-struct Steps {
-    /// Equations and parameters of each step.
+/// The orbits of a fractal. Its steps are found once, since finding a hybrid's takes far longer than an orbit.
+pub struct Orbits {
+    /// Equations and parameters of each step: one for a formula that draws alone.
     of: Vec<(Equations, Fractal)>,
     /// The place in `of` of each of an orbit's steps.
     order: Vec<usize>,
@@ -21,17 +21,19 @@ struct Steps {
     leading: usize,
     julia_constant: Option<DVec4>,
     bailout: f64,
+    iterations: u32,
 }
 
-fn steps_of(fractal: &Fractal) -> Steps {
-    let known = |fractal: Fractal| {
-        let id = fractal.formula().id();
-        let found = formulas::equations(id).or_else(|| transforms::equations(id));
-        (found.unwrap_or_else(|| panic!("no oracle of {id}")), fractal)
-    };
-    let count = fractal.iterations as usize;
-    let (of, order, leading) =
-        match fractal.hybrid() {
+impl Orbits {
+    /// Of a fractal whose formulas the oracle knows.
+    pub fn of(fractal: &Fractal) -> Self {
+        let known = |fractal: Fractal| {
+            let id = fractal.formula().id();
+            let found = formulas::equations(id).or_else(|| transforms::equations(id));
+            (found.unwrap_or_else(|| panic!("no oracle of {id}")), fractal)
+        };
+        let count = fractal.iterations as usize;
+        let (of, order, leading) = match fractal.hybrid() {
             None => (vec![known(fractal.clone())], vec![0; count], 0),
             Some(hybrid) => {
                 let step = |step: &mandelight::formula::HybridStep| {
@@ -66,12 +68,14 @@ fn steps_of(fractal: &Fractal) -> Steps {
                 (of, order, leading.unwrap_or(hybrid.loop_start))
             }
         };
-    Steps { of, order, leading, julia_constant: julia_constant(fractal), bailout: fractal.bailout }
-}
-
-impl Steps {
-    fn gives_derivative(&self) -> bool {
-        self.of.iter().all(|(equations, _)| equations.gives_derivative)
+        Self {
+            of,
+            order,
+            leading,
+            julia_constant: julia_constant(fractal),
+            bailout: fractal.bailout,
+            iterations: fractal.iterations,
+        }
     }
 
     fn start(&self, point: DVec3) -> DVec4 {
@@ -126,6 +130,61 @@ impl Steps {
         let [fine, coarse] = [1e-6, 4e-6].map(|part| at((part / rough).min(part)));
         [fine, (coarse / fine - 1.0).abs()]
     }
+
+    /// Whether the derivative of the fractal is left to the program.
+    pub fn is_derived(&self) -> bool {
+        !self.of.iter().all(|(equations, _)| equations.gives_derivative)
+    }
+
+    /// The orbit of `point` with its derivative.
+    pub fn orbit(&self, point: DVec3) -> End {
+        let start = self.start(point);
+        let c = self.julia_constant.unwrap_or(start);
+        let dc = if self.julia_constant.is_some() { 0.0 } else { 1.0 };
+        let (mut z, mut before, mut dr, mut steps) = (start, start, 1.0, 0);
+        let mut points = Vec::new();
+        while steps < self.iterations && self.size(z) <= self.bailout {
+            before = z;
+            (z, dr) = self.step(steps as usize, z, c, dr, dc);
+            points.push(z);
+            steps += 1;
+        }
+        let size = self.size(z);
+        let escaped = size.is_nan() || size > self.bailout;
+        let mut uncertain = 0.0;
+        if self.is_derived() {
+            [dr, uncertain] = self.difference(point, steps);
+        }
+        let mut smooth_iterations = f64::from(steps);
+        if escaped && steps > 0 {
+            let [old, new] = [before, z].map(|z| self.size(z).ln());
+            let limit = self.bailout.ln();
+            let part = match self.leading().0.distance {
+                Distance::Log => (new / limit).ln() / (new / old.max(1e-4)).ln(),
+                _ => (new - limit) / (new - old),
+            };
+            smooth_iterations -= part.clamp(0.0, 1.0);
+        }
+        End { z, dr, uncertain, steps, escaped, points, smooth_iterations }
+    }
+
+    /// The estimated distance of `point`.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let End { z, dr, .. } = self.orbit(point);
+        let (equations, of) = self.leading();
+        let (r, seen) = (self.size(z), self.seen(z));
+        let found = match equations.distance {
+            Distance::Log => 0.5 * r * r.ln() / (dr * slope(equations.size, seen)),
+            Distance::Linear(offset) => (r - offset) / (dr * slope(equations.size, seen)),
+            Distance::Own(own) => own(of, seen, dr, point),
+        };
+        if found > 0.0 { found } else { 0.0 }
+    }
+
+    /// The height whose gradient is the normal of a formula without dr: what the estimate divides.
+    pub fn height(&self, point: DVec3, steps: u32) -> f64 {
+        self.size(self.after(point, steps))
+    }
 }
 
 /// The end of an orbit.
@@ -145,64 +204,6 @@ pub struct End {
     pub points: Vec<DVec4>,
     /// The thesis's eq. 3.1, with the growth of the last step.
     pub smooth_iterations: f64,
-}
-
-/// Whether the derivative of `fractal` is left to the program.
-pub fn is_derived(fractal: &Fractal) -> bool {
-    !steps_of(fractal).gives_derivative()
-}
-
-/// The orbit of `point` with its derivative.
-pub fn orbit(fractal: &Fractal, point: DVec3) -> End {
-    let all = steps_of(fractal);
-    let start = all.start(point);
-    let c = all.julia_constant.unwrap_or(start);
-    let dc = if all.julia_constant.is_some() { 0.0 } else { 1.0 };
-    let (mut z, mut before, mut dr, mut steps) = (start, start, 1.0, 0);
-    let mut points = Vec::new();
-    while steps < fractal.iterations && all.size(z) <= all.bailout {
-        before = z;
-        (z, dr) = all.step(steps as usize, z, c, dr, dc);
-        points.push(z);
-        steps += 1;
-    }
-    let size = all.size(z);
-    let escaped = size.is_nan() || size > all.bailout;
-    let mut uncertain = 0.0;
-    if !all.gives_derivative() {
-        [dr, uncertain] = all.difference(point, steps);
-    }
-    let mut smooth_iterations = f64::from(steps);
-    if escaped && steps > 0 {
-        let [old, new] = [before, z].map(|z| all.size(z).ln());
-        let limit = all.bailout.ln();
-        let part = match all.leading().0.distance {
-            Distance::Log => (new / limit).ln() / (new / old.max(1e-4)).ln(),
-            _ => (new - limit) / (new - old),
-        };
-        smooth_iterations -= part.clamp(0.0, 1.0);
-    }
-    End { z, dr, uncertain, steps, escaped, points, smooth_iterations }
-}
-
-/// The estimated distance of `point`.
-pub fn distance(fractal: &Fractal, point: DVec3) -> f64 {
-    let End { z, dr, .. } = orbit(fractal, point);
-    let all = steps_of(fractal);
-    let (equations, of) = all.leading();
-    let (r, seen) = (all.size(z), all.seen(z));
-    let found = match equations.distance {
-        Distance::Log => 0.5 * r * r.ln() / (dr * slope(equations.size, seen)),
-        Distance::Linear(offset) => (r - offset) / (dr * slope(equations.size, seen)),
-        Distance::Own(own) => own(of, seen, dr, point),
-    };
-    if found > 0.0 { found } else { 0.0 }
-}
-
-/// The height whose gradient is the normal of a formula without dr: what the estimate divides.
-pub fn height(fractal: &Fractal, point: DVec3, steps: u32) -> f64 {
-    let all = steps_of(fractal);
-    all.size(all.after(point, steps))
 }
 
 /// How fast `size` changes with the state.
