@@ -32,7 +32,8 @@
 //!    learns from that.
 //! 5. Post passes read the whole film if the scene needs it: the film's mean sets the exposure, and
 //!    bright pixels bloom ([`render::post`]). Otherwise the samples of a sparse lattice are tone
-//!    mapped and upsampled to the display without filling the film.
+//!    mapped and upsampled to the display without filling the film. A display that takes long is
+//!    submitted in parts ([`render::display_parts`]).
 //! 6. The page's interface shows the display texture, or [`export::StillJob`] reads it back tile by
 //!    tile for a PNG.
 //!

@@ -5,7 +5,8 @@
 //     node benches/page/pieces.mjs
 //
 // One view opens scene after scene, some seconds each, and the GPU's own timestamps measure every submit: pieces of pictures,
-// displays, and frames of the interface. Prints the times in motion budgets, as the native benchmark does.
+// displays, and frames of the interface. Prints the times in motion budgets, as the native benchmark does, and the scenes that most
+// of the long ones are from.
 
 import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -36,13 +37,14 @@ await visit({ context: { viewport: { width: 640, height: 384 } } }, async (v) =>
       await v.tab.evaluate((json) => window.mandelight.setScene(json), text);
       await new Promise((resolve) => setTimeout(resolve, SCENE_MS));
       for (const { name, ms } of await takeSubmits(v.tab)) {
-        submits.push({ kind: name, ms, budgets: ms / budget, scene: `${set}/${file}` });
+        submits.push({ kind: name, ms, budget, budgets: ms / budget, scene: `${set}/${file}` });
       }
     }
     print(`${files.length} of ${set}`, submits);
     all.push(...submits);
   }
   print("all", all);
+  printWorstScenes(all);
 });
 
 /** Waits for the opening picture. Its submits, more than one reading holds, are read meanwhile and left out. */
@@ -73,4 +75,33 @@ function print(name, submits) {
       `longest display ${longest(of("display")).ms.toFixed(0)} ms; ` +
       `${frames.length} frames of the interface, median ${at(0.5, frames).toFixed(1)} ms, 99 % ${at(0.99, frames).toFixed(1)} ms`,
   );
+}
+
+/** Prints the scenes with the most pieces over two budgets, and those with the longest displays. */
+function printWorstScenes(submits) {
+  const scenes = [...new Set(submits.map((submit) => submit.scene))].map((scene) => {
+    const of = submits.filter((submit) => submit.scene === scene);
+    const pieces = of.filter((submit) => submit.kind === "trace");
+    const longest = (kind) => Math.max(0, ...of.filter((submit) => submit.kind === kind).map((submit) => submit.ms));
+    return {
+      scene,
+      budget: of[0].budget,
+      pieces: pieces.length,
+      over: pieces.filter((piece) => piece.budgets > 2).length,
+      longestPiece: longest("trace"),
+      longestDisplay: longest("display"),
+    };
+  });
+  const table = (title, rows) => {
+    console.log(title);
+    for (const row of rows) {
+      console.log(
+        `  ${row.scene}, ${row.budget} ms: ${row.over} of ${row.pieces} pieces over two budgets, longest ${row.longestPiece.toFixed(0)} ms; ` +
+          `longest display ${row.longestDisplay.toFixed(0)} ms`,
+      );
+    }
+  };
+  const first = (key) => scenes.toSorted((a, b) => b[key] - a[key]).slice(0, 8);
+  table("scenes with the most pieces over two budgets:", first("over").filter((row) => row.over > 0));
+  table("scenes with the longest displays:", first("longestDisplay"));
 }

@@ -9,11 +9,11 @@ use mandelight::{
     gpu::readback::ReadbackError,
     render::{
         Pace, Pipelines, Region, View,
-        lattice::MAX_SAMPLES_TOGETHER,
+        lattice::{MAX_SAMPLES_TOGETHER, WORKGROUP_BLOCKS},
         pass::{self, Pass},
         pipelines::FramePipelines,
         recorder::{Dispatches, Recorder},
-        schedule::{KeptPixels, Points, Stage, Trace},
+        schedule::{Points, Stage, Trace},
         shaders,
         sky::SampledSky,
         space::RenderSpace,
@@ -232,18 +232,9 @@ impl<'a> PassRunner<'a> {
     /// The work on `points` of the whole picture, in batches.
     fn traces(&self, points: Points) -> impl Iterator<Item = Trace> {
         let lights = u64::MAX >> (64 - self.inputs.frame.surface.light_count.clamp(1, 64));
-        let all =
-            points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.workgroup_stride);
-        let batch = self.targets.batch_workgroups;
-        (0..all).step_by(batch as usize).map(move |first_workgroup| Trace {
-            points,
-            from: Stage::March,
-            lights,
-            first_workgroup,
-            workgroups: batch.min(all - first_workgroup),
-            kept: KeptPixels::default(),
-            part: None,
-        })
+        let whole = Trace::whole(points, Stage::March, lights, self.inputs.frame.size_px);
+        let blocks = whole.workgroups().div_ceil(self.workgroup_stride) * WORKGROUP_BLOCKS;
+        Trace { blocks, ..whole }.batches(self.targets.batch_workgroups)
     }
 
     /// Records one pass over a piece of work.

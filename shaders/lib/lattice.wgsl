@@ -59,7 +59,8 @@ struct Block {
 }
 
 fn block_at(index: u32) -> Block {
-    return Block(index, workgroup_corner(index / BLOCKS) + place_of_block(index % BLOCKS));
+    let at = dispatch.first_block + index;
+    return Block(index, workgroup_corner(at / BLOCKS) + place_of_block(at % BLOCKS));
 }
 
 struct PixelBox {

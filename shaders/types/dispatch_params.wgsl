@@ -42,6 +42,11 @@ struct DispatchParams {
     light_kind: u32,
     // Number of blocks of a dispatch over all blocks: see `types/work_queues.wgsl`.
     blocks: u32,
+    // First block of the dispatch in its first workgroup, 0 to 7.
+    first_block: u32,
+    // Threads of each workgroup over a queue that compute a sample: a power of two, and 64, which is all, on a GPU. Few samples
+    // then occupy all cores of a CPU adapter.
+    queue_threads: u32,
     // The ray queue that a dispatch writes or reads.
     ray_queue: u32,
     // Number of samples of a pixel that are computed together, and log2 of the number of threads per

@@ -17,10 +17,19 @@ fn count_workgroup(which: u32, entry: u32, in_each: u32) {
     if (entry % in_each == 0u) { atomicAdd(&workgroups_for[which].x, 1u); }
 }
 
+// Counts one more block, which fills a part of a workgroup or several workgroups.
+fn count_block(which: u32, entry: u32) {
+    if (dispatch.queue_threads < BLOCK_THREADS) {
+        atomicAdd(&workgroups_for[which].x, BLOCK_THREADS / dispatch.queue_threads);
+    } else {
+        count_workgroup(which, entry, dispatch.queue_threads / BLOCK_THREADS);
+    }
+}
+
 fn enqueue_hit(block: u32) {
     let entry = atomicAdd(&work_queues.hits, 1u);
     work_queues.entries[entry] = block;
-    count_workgroup(0u, entry, BLOCKS);
+    count_block(0u, entry);
     count_workgroup(1u, entry, WORKGROUP_THREADS);
 }
 
@@ -28,12 +37,12 @@ fn enqueue_ray(block: u32, clear: f32) {
     let entry = atomicAdd(&work_queues.rays[dispatch.ray_queue], 1u);
     work_queues.entries[max_blocks() + entry] = block;
     work_queues.entries[2u * max_blocks() + entry] = bitcast<u32>(clear);
-    count_workgroup(dispatch.ray_queue, entry, BLOCKS);
+    count_block(dispatch.ray_queue, entry);
 }
 
 // Adds a sample to a ray queue, in a region of its entries.
 fn enqueue_sample(region: u32, queue: u32, ray: u32) {
     let entry = atomicAdd(&work_queues.rays[queue], 1u);
     work_queues.entries[region_start(region) + entry] = ray;
-    count_workgroup(queue, entry, WORKGROUP_THREADS);
+    count_workgroup(queue, entry, dispatch.queue_threads);
 }

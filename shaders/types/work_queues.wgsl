@@ -41,6 +41,20 @@ fn region_start(region: u32) -> u32 {
     return (3u + (region - 1u) * BLOCK_THREADS) * max_blocks();
 }
 
+// A thread's slot in a queue.
+struct QueueSlot {
+    // False for threads of a workgroup that compute no sample.
+    is_active: bool,
+    // Number of the thread among those that do.
+    index: u32,
+}
+
+fn queue_slot(thread: u32) -> QueueSlot {
+    let in_workgroup = thread % WORKGROUP_THREADS;
+    let before = thread / WORKGROUP_THREADS * dispatch.queue_threads;
+    return QueueSlot(in_workgroup < dispatch.queue_threads, before + in_workgroup);
+}
+
 // A sample of a queued block.
 struct QueuedSample {
     site: Site,
@@ -48,18 +62,21 @@ struct QueuedSample {
     clear: f32,
 }
 
-// A thread's sample of the block at an entry; each entry has eight consecutive threads.
-fn queued(is_there: bool, entry: u32, thread: u32, clear: u32) -> QueuedSample {
-    let block = select(0u, work_queues.entries[entry], is_there);
-    var site = block_site(block_at(block), thread % BLOCK_THREADS);
+// A slot's sample of a queue of `count` blocks, whose entries start at `start`: each entry has eight consecutive slots.
+fn block_sample(slot: QueueSlot, start: u32, count: u32) -> Site {
+    let entry = slot.index / BLOCK_THREADS;
+    let is_there = slot.is_active && entry < count;
+    let block = select(0u, work_queues.entries[start + entry], is_there);
+    var site = block_site(block_at(block), slot.index % BLOCK_THREADS);
     site.is_there = site.is_there && is_there;
-    return QueuedSample(site, bitcast<f32>(clear));
+    return site;
 }
 
 // A thread's sample of the dispatch's queue of samples.
 fn queued_sample(thread: u32) -> Site {
-    let is_there = thread < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
-    let ray = select(0u, work_queues.entries[region_start(dispatch.queue_region) + thread], is_there);
+    let slot = queue_slot(thread);
+    let is_there = slot.is_active && slot.index < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
+    let ray = select(0u, work_queues.entries[region_start(dispatch.queue_region) + slot.index], is_there);
     var site = block_site(block_at(ray / BLOCK_THREADS), ray % BLOCK_THREADS);
     site.is_there = site.is_there && is_there;
     return site;
@@ -67,8 +84,7 @@ fn queued_sample(thread: u32) -> Site {
 
 fn queued_hit(thread: u32) -> Site {
     if (is_path_queue()) { return queued_sample(thread); }
-    let entry = thread / BLOCK_THREADS;
-    return queued(entry < atomicLoad(&work_queues.hits), entry, thread, 0u).site;
+    return block_sample(queue_slot(thread), 0u, atomicLoad(&work_queues.hits));
 }
 
 fn queued_ray(thread: u32) -> QueuedSample {
@@ -77,10 +93,10 @@ fn queued_ray(thread: u32) -> QueuedSample {
         // A point's own surface does not shade it.
         return QueuedSample(site, rays[site.ray].radius / frame.march.shadow_margin);
     }
-    let entry = thread / BLOCK_THREADS;
-    let is_there = entry < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
-    let clear = select(0u, work_queues.entries[2u * max_blocks() + entry], is_there);
-    return queued(is_there, max_blocks() + entry, thread, clear);
+    let slot = queue_slot(thread);
+    let site = block_sample(slot, max_blocks(), atomicLoad(&work_queues.rays[dispatch.ray_queue]));
+    let clear = select(0u, work_queues.entries[2u * max_blocks() + slot.index / BLOCK_THREADS], site.is_there);
+    return QueuedSample(site, bitcast<f32>(clear));
 }
 
 // A thread's sample of a pass over the vertices of paths: all samples of the batch at first, then those of a queue.

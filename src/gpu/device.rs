@@ -33,6 +33,15 @@ pub enum GpuError {
     },
 }
 
+/// What a CPU adapter computes at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cpu {
+    /// Cores of the processor.
+    pub cores: u32,
+    /// Threads of a workgroup that a core computes at once, as lanes of its vectors; 0 if it is not known.
+    pub lanes: u32,
+}
+
 /// A device with its queue, adapter and instance. Clones share the device.
 #[derive(Clone)]
 pub struct Gpu {
@@ -46,6 +55,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Asynchronous pipeline compilation, if the platform has it.
     pub async_compile: Option<AsyncCompile>,
+    /// What a CPU adapter, such as llvmpipe, computes at once; none for a GPU.
+    pub cpu: Option<Cpu>,
     faults: Arc<AtomicU64>,
 }
 
@@ -93,7 +104,10 @@ impl Gpu {
             counted.fetch_add(1, Ordering::Relaxed);
             log::error!("GPU error: {error}");
         }));
-        Ok(Self { instance, adapter, device, queue, async_compile: None, faults })
+        let info = adapter.get_info();
+        let cpu = (info.device_type == wgpu::DeviceType::Cpu)
+            .then(|| Cpu { cores: processor_cores() as u32, lanes: info.subgroup_max_size });
+        Ok(Self { instance, adapter, device, queue, async_compile: None, cpu, faults })
     }
 
     /// The adapter's name and backend for display: `llvmpipe (LLVM 15.0.6) · Vulkan`.
@@ -161,6 +175,11 @@ fn adapter_name(adapter: &wgpu::Adapter) -> String {
     format!("{} · {}", if info.name.is_empty() { "GPU" } else { &info.name }, info.backend)
 }
 
+/// Number of the processor's cores; 1 on the web, where `web::start` replaces it.
+fn processor_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |count| count.get())
+}
+
 /// Applies `f` to every item on all processor cores; the results are in the items' order.
 ///
 /// wasm has one thread.
@@ -180,9 +199,8 @@ pub fn in_parallel<T: Sync, R: Send + Sync>(items: &[T], f: impl Fn(&T) -> R + S
                 let _ = result.set(f(item));
             }
         };
-        let threads = std::thread::available_parallelism().map_or(1, |count| count.get());
         std::thread::scope(|scope| {
-            for _ in 1..threads.min(items.len()) {
+            for _ in 1..processor_cores().min(items.len()) {
                 scope.spawn(work);
             }
             work();

@@ -10,4 +10,4 @@ pub mod shader;
 pub mod timing;
 
 pub use async_compile::AsyncCompile;
-pub use device::{Gpu, GpuError};
+pub use device::{Cpu, Gpu, GpuError};

@@ -1,6 +1,7 @@
-//! Records one batch of an integrator's work, or one display.
+//! Records one batch of an integrator's work, or parts of a display.
 
 use super::{
+    display_parts::DisplayPart,
     integrator::Integrator,
     pass::{self, Record, shutter},
     recorder::Recorder,
@@ -25,7 +26,9 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
             }
         }
         Work::Display(display) => {
-            if let Some(sub_frame) = recorder.inputs.sub_frame {
+            if let Some(sub_frame) = recorder.inputs.sub_frame
+                && recorder.parts.contains(DisplayPart::Fill)
+            {
                 shutter::record(recorder, sub_frame.index);
                 if !sub_frame.is_last() {
                     return;
@@ -35,7 +38,9 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
             for pass in pass::DISPLAY {
                 match (&pass.record, sparse_level) {
                     (Record::Sparse { record }, Some(level)) => record(recorder, level),
-                    (Record::Film { when, record }, None) if when(recorder, &display) => {
+                    (Record::Film { parts, when, record }, None)
+                        if recorder.parts.overlaps(*parts) && when(recorder, &display) =>
+                    {
                         record(recorder, &display);
                     }
                     _ => {}

@@ -19,6 +19,12 @@ pub const MAX_SAMPLES_TOGETHER: u32 = 8;
 /// Threads in a workgroup.
 pub const WORKGROUP_THREADS: u32 = WORKGROUP_SIDE * WORKGROUP_SIDE;
 
+/// Threads in a block; `BLOCK_THREADS` in `shaders/lib/lattice.wgsl`.
+pub const BLOCK_THREADS: u32 = 8;
+
+/// Blocks in a workgroup; `BLOCKS` in `shaders/lib/lattice.wgsl`.
+pub const WORKGROUP_BLOCKS: u32 = WORKGROUP_THREADS / BLOCK_THREADS;
+
 /// A set of pixels of a region, and the workgroups that visit them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
@@ -95,6 +101,11 @@ impl Grid {
     /// Number of workgroups that cover the grid; 0 for a region without such pixels.
     pub fn workgroups(&self) -> u32 {
         self.columns * self.rows
+    }
+
+    /// Number of blocks of these workgroups.
+    pub fn blocks(&self) -> u32 {
+        self.workgroups() * WORKGROUP_BLOCKS
     }
 
     /// The parameters of a dispatch that starts at `first_workgroup`.

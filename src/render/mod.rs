@@ -8,6 +8,7 @@
 //! | [`lattice`] | sparse lattices of pixels, and the positions of samples in a pixel |
 //! | [`frame`] | records the passes of a batch or a display |
 //! | [`recorder`] | records the passes: bindings and dispatches |
+//! | [`display_parts`] | divides displays that take long |
 //! | [`integrator`] | how the light is computed that samples see |
 //! | [`indirect`] | the source of indirect light |
 //! | [`pass`] | one file per pass, named like its shader |
@@ -22,6 +23,7 @@
 //! | `anchors` | the anchors of a moving view |
 //! | [`space`] | render space: origin and unit of coordinates |
 //! | [`work_queues`] | work queues: the blocks of threads that a pass has work for |
+//! | [`occupancy`] | how few blocks occupy all cores of a CPU adapter |
 //! | `buffers` | constructors of buffers and bind groups |
 //! | `gbuffer` | readback of the G-buffer |
 //! | `layouts` | bind group layouts |
@@ -44,6 +46,7 @@ mod anchors;
 mod buffers;
 pub mod color_curve;
 pub mod denoiser;
+pub mod display_parts;
 pub mod display_values;
 pub mod environment_texture;
 pub mod frame;
@@ -55,6 +58,7 @@ pub mod lattice;
 mod layouts;
 pub mod memory;
 mod noise_control;
+pub mod occupancy;
 pub mod pass;
 mod path_targets;
 pub mod pipeline_set;

@@ -185,8 +185,8 @@ fn trace(points: Points, from: Stage) -> Work {
         points,
         from,
         lights: 1,
-        first_workgroup: 0,
-        workgroups: 0,
+        first_block: 0,
+        blocks: 0,
         kept: KeptPixels::default(),
         part: None,
     })

@@ -52,8 +52,8 @@ mod tests {
             points,
             from: Stage::March,
             lights: 0,
-            first_workgroup: 0,
-            workgroups: 1,
+            first_block: 0,
+            blocks: 1,
             kept: KeptPixels::default(),
             part: None,
         })

@@ -3,15 +3,17 @@
 use std::collections::BTreeMap;
 
 use super::{
+    display_parts::PartRange,
     indirect::{self, IndirectSource},
-    lattice::{self, Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
+    lattice::{self, BLOCK_THREADS, Grid, WORKGROUP_BLOCKS, WORKGROUP_SIDE, WORKGROUP_THREADS},
     layouts::Layouts,
+    occupancy::Occupancy,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
     schedule::{Display, KeptPixels, Points, Stage, Trace},
     targets::{DISPATCH_PARAMS_STRIDE_BYTES, MAX_DISPATCHES, Targets},
     uniforms::{DispatchParams, Inputs},
-    work_queues::{BLOCK_THREADS, Queue},
+    work_queues::Queue,
 };
 use crate::gpu::host_shared::HostShared;
 
@@ -46,6 +48,8 @@ pub enum Record {
     },
     /// The pass makes a display of the film.
     Film {
+        /// The parts of a display in which the pass is recorded.
+        parts: PartRange,
         /// Whether a display has the pass.
         when: fn(&Recorder<'_>, &Display) -> bool,
         /// Records the pass.
@@ -144,6 +148,8 @@ pub struct Recorder<'a> {
     pub post: &'a Post,
     /// The source of indirect light: the targets' own, unless a view replaces it.
     pub indirect_source: IndirectSource,
+    /// The parts of a display that are recorded.
+    pub parts: PartRange,
     /// The post passes that a display runs.
     pub tasks: Tasks,
     /// Whether a display shows denoised light.
@@ -192,6 +198,7 @@ impl<'a> Recorder<'a> {
             inputs,
             post: &targets.post,
             indirect_source: IndirectSource::of(targets, inputs.frame.indirect.source_px),
+            parts: PartRange::ALL,
             tasks: Tasks::default(),
             denoises: false,
             rehearsal: None,
@@ -263,10 +270,13 @@ impl<'a> Recorder<'a> {
 
     /// The dispatch parameters of a batch. Binds the jittered samples if the batch computes those.
     pub fn dispatch_params(&mut self, trace: &Trace, grid: &Grid) -> DispatchParams {
-        debug_assert!(trace.workgroups <= self.targets.batch_workgroups, "buffers hold one batch");
-        let mut params = grid.dispatch_params(trace.first_workgroup);
+        let most = self.targets.batch_workgroups * WORKGROUP_BLOCKS;
+        debug_assert!(trace.blocks <= most, "buffers hold one batch");
+        let mut params = grid.dispatch_params(trace.first_block / WORKGROUP_BLOCKS);
+        params.first_block = trace.first_block % WORKGROUP_BLOCKS;
         params.starts_at_surface = u32::from(trace.from > Stage::March);
-        params.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
+        params.blocks = trace.blocks;
+        params.queue_threads = Occupancy::of(self.layouts.gpu.cpu).queue_threads(trace.blocks);
         (params.kept_first, params.kept_end) = (trace.kept.first, trace.kept.end);
         if let Points::Samples { first, count } = trace.points {
             let skipped = self.inputs.sub_frame.map_or(0, |sub_frame| sub_frame.first_sample);

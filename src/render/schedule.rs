@@ -7,7 +7,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `traces` | the next run of workgroups, and its parts |
+//! | `traces` | the next run of blocks, and its parts |
 //! | `piece_size` | how much a refining piece computes |
 //! | `division` | in how many parts a long piece is submitted |
 //! | `point_selection` | which sample points come next |
@@ -20,7 +20,7 @@
 //! | `adaptation` | how exposure follows the film |
 //! | `work`, `types` | plain types |
 
-use super::{lattice::COARSEST, region::Overlap};
+use super::{lattice::COARSEST, occupancy::Occupancy, region::Overlap};
 
 mod adaptation;
 mod completion;
@@ -50,7 +50,7 @@ pub use progress::Reuse;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
 pub use work::{
-    BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, MAX_PIECE_WORKGROUPS, Points,
+    BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, MAX_PIECE_BLOCKS, Points,
     Stage, Trace, Work,
 };
 
@@ -173,6 +173,11 @@ impl Schedule {
         self.progress.gbuffer_validity.invalidate_lights(moved);
     }
 
+    /// Sets what occupies the adapter: the sizes of a refining picture's pieces.
+    pub fn set_occupancy(&mut self, occupancy: Occupancy) {
+        self.piece_sizes.occupancy = occupancy;
+    }
+
     /// Sets the lights that have shadow rays, by their visibility bits.
     pub fn set_casting(&mut self, casting: u64) {
         self.cost.set_casting(casting);
@@ -272,6 +277,9 @@ impl Schedule {
     fn begin_opening(&mut self) {
         if self.pace == Pace::Interactive {
             self.cost.forget_paths();
+            if self.is_jump {
+                self.cost.forget_shading();
+            }
         }
         self.interface_frames.release();
         self.is_converged = false;
@@ -349,7 +357,7 @@ impl Schedule {
             return None;
         }
         loop {
-            let (points, first_workgroup) = match self.progress.under_way {
+            let (points, first_block) = match self.progress.under_way {
                 Some(state) => state,
                 None => {
                     let selection = self.point_selection(now_secs);
@@ -363,7 +371,7 @@ impl Schedule {
                 }
             };
             if points.grid(self.progress.size_px).workgroups() > 0 {
-                return Some(Work::Trace(self.next_trace(points, first_workgroup)));
+                return Some(Work::Trace(self.next_trace(points, first_block)));
             }
             // A small region has no pixels of this kind.
             self.is_display_stale = self.progress.complete(points);

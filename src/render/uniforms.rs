@@ -5,6 +5,7 @@
 
 mod background;
 mod camera;
+mod dispatch_params;
 mod lights;
 mod march;
 mod media;
@@ -15,6 +16,7 @@ mod tone;
 
 use std::sync::Arc;
 
+pub use dispatch_params::*;
 pub use lights::lights;
 pub use shared::*;
 
@@ -190,7 +192,8 @@ impl Inputs {
         );
         let lights = lights(scene, space);
         frame.fog = frame.fog.lit_by(&lights);
-        frame.march = frame.march.with_step_limits(formula.step_limits);
+        frame.march =
+            frame.march.with_step_limits(formula.step_limits).with_series(formula.series_steps);
         Self {
             frame,
             formula,

@@ -4,21 +4,21 @@ use std::sync::Arc;
 
 use super::{
     anchors::Anchors,
+    display_parts::DisplayDivision,
     display_values::DisplayValues,
     environment_texture::EnvironmentTexture,
-    frame,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     integrator::{self, DIRECT, Integrator},
-    lattice::WORKGROUP_THREADS,
     noise_control::NoiseControl,
+    occupancy::Occupancy,
     pipelines::Pipelines,
-    post::{Need, Post, Tasks},
+    post::{Need, Post},
     preparation::Preparation,
     reconstruction::Reconstruction,
-    recorder::{Dispatches, Recorder},
+    recorder::Dispatches,
     region::Region,
-    schedule::{Pace, Schedule, Stage, Stale, Work},
+    schedule::{Pace, Schedule, Stale},
     sky::{SampledSky, SkyCache},
     space::RenderSpace,
     sub_frame::SubFrame,
@@ -41,10 +41,11 @@ mod prepare;
 mod read;
 mod report;
 mod resize;
+mod submit;
 
 use color_following::ColorFollowing;
 pub use parts::PieceTime;
-use parts::{Lent, Shown, StatsValidity, Times};
+use parts::{Lent, Recording, Shown, StatsValidity, Submitted, Times};
 
 /// One picture in progress.
 pub struct View {
@@ -63,7 +64,11 @@ pub struct View {
     integrator: &'static Integrator,
     schedule: Schedule,
     /// Times the view's own work; none marks a frame of the interface.
-    stopwatch: Stopwatch<Option<Work>>,
+    stopwatch: Stopwatch<Option<Submitted>>,
+    /// The display of which parts are left to submit.
+    display_under_way: Option<Recording>,
+    /// Its parts.
+    display_division: DisplayDivision,
     scene: Option<Scene>,
     /// The loaded environment map.
     environment_map: Option<Arc<EnvironmentMap>>,
@@ -95,6 +100,8 @@ impl View {
     pub fn new(pipelines: &Arc<Pipelines>, region: Region, pace: Pace) -> Self {
         let region = drawable(region);
         let integrator = &DIRECT;
+        let mut schedule = Schedule::new(integrator.plan, pace, region.film_px());
+        schedule.set_occupancy(Occupancy::of(pipelines.gpu.cpu));
         Self {
             pipelines: pipelines.clone(),
             region,
@@ -106,8 +113,10 @@ impl View {
             is_space_current: false,
             targets: Targets::new(&pipelines.layouts, region),
             integrator,
-            schedule: Schedule::new(integrator.plan, pace, region.film_px()),
+            schedule,
             stopwatch: Stopwatch::default(),
+            display_under_way: None,
+            display_division: DisplayDivision::default(),
             scene: None,
             environment_map: None,
             sky: None,
@@ -210,6 +219,11 @@ impl View {
     pub fn pump(&mut self, now_secs: f64) -> bool {
         self.times.advance(now_secs);
         self.collect();
+        // The film must not change between the parts of a display.
+        if self.continue_display() {
+            self.times.is_working = true;
+            return true;
+        }
         if self.inputs.is_none() {
             if self.pending.is_none() {
                 return false;
@@ -236,6 +250,10 @@ impl View {
             self.clear_path_counts(work);
             self.submit(work);
             self.note_round(work);
+            if self.is_amid_display() {
+                self.times.is_working = true;
+                return true;
+            }
         }
         self.end_at_noise();
         self.follow_colors();
@@ -254,20 +272,6 @@ impl View {
     /// For use between two pumps of a still. On the web this returns at once.
     pub fn wait(&self) {
         self.stopwatch.wait(&self.pipelines.gpu);
-    }
-
-    /// Collects the timings of the work that the GPU has finished.
-    fn collect(&mut self) {
-        self.pipelines.gpu.poll();
-        let mut ended = Vec::new();
-        while let Some(finished) = self.stopwatch.next_finished() {
-            ended.push((finished.mark, finished.busy_ms));
-        }
-        self.schedule.collect(&ended);
-        for (work, busy_ms) in ended {
-            let Some(work) = work else { continue };
-            self.times.add(work, busy_ms);
-        }
     }
 
     /// Applies the pending scene, if any, once its render space is known; returns whether it did.
@@ -381,75 +385,12 @@ impl View {
         self.lent.post.is_none().then(|| self.targets.post.need())
     }
 
-    /// The lattice level from which a display is upsampled; none if it is made of the film.
-    fn upsample_level(&mut self, work: Work) -> Option<u32> {
-        let picture = &self.inputs.as_ref()?.frame;
-        let is_plain = picture.eyes.count == 1
-            && self.lent.post.is_none()
-            && self.targets.post.need().is_none()
-            && !self.histogram_readback.is_wanted();
-        self.reconstruction.upsample_level(
-            work,
-            is_plain,
-            self.targets.finest_upsampled_level(picture.size_px),
-        )
-    }
-
-    /// Makes the buffers of a batch fit a piece of work.
-    ///
-    /// Pieces are sized by time: a GPU that traces so many rays in one is a large one. Shading alone says nothing of it.
-    fn fit_batch(&mut self, work: Work) {
-        let (Work::Trace(trace), Some(inputs)) = (work, &self.inputs) else { return };
-        let workgroups = trace.samples() / WORKGROUP_THREADS;
-        let layouts = &self.pipelines.layouts;
-        if trace.from <= Stage::March && self.targets.fit_batch(layouts, workgroups) {
-            (self.integrator.fit_targets)(&mut self.targets, layouts, inputs);
-        }
-    }
-
-    fn submit(&mut self, work: Work) {
-        self.fit_batch(work);
-        let upsample_level = self.upsample_level(work);
-        // Sub-frames before the last are not shown.
-        let is_shown = self.sub_frame.is_none_or(|sub_frame| sub_frame.is_last());
-        let is_unseen_display = matches!(work, Work::Display(_)) && !is_shown;
-        let tasks = match upsample_level {
-            Some(_) => Tasks::default(),
-            None if is_unseen_display => Tasks::default(),
-            None => self.stats_validity.tasks(work, self.post_need(), &self.histogram_readback),
-        };
-        let denoises = self.denoises();
-        let Some(inputs) = &self.inputs else { return };
-        let passes = self.pipelines.of_frame(inputs);
-        let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
-        let batches = work.batches(self.targets.batch_workgroups);
-        let commands = batches.map(|batch| {
-            let mut recorder =
-                Recorder::named(work.name(), layouts, &passes, &self.targets, inputs, dispatches);
-            recorder.tasks = tasks;
-            recorder.upsample_level = upsample_level;
-            recorder.denoises = denoises;
-            if let Some(lent) = &self.lent.post {
-                recorder.post = lent;
-            }
-            if let Some(lent) = &self.lent.indirect_source {
-                recorder.indirect_source = lent.clone();
-            }
-            frame::record(self.integrator, &mut recorder, batch);
-            recorder.finish()
-        });
-        self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
-        if matches!(work, Work::Display(_)) && is_shown {
-            self.shown.note(&self.targets);
-            self.histogram_readback.note_picture();
-        }
-    }
-
     /// Sets whether [`Report::histogram`](super::Report::histogram) is kept up to date.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if wanted == self.histogram_readback.is_wanted() {
             return;
         }
+        self.finish_display();
         self.histogram_readback = HistogramReadback::new(wanted);
         if wanted {
             self.schedule.show_again();
@@ -465,6 +406,7 @@ impl View {
     ///
     /// None ends the loan. The lender's picture must be finished, with the same tone and bloom settings.
     pub fn lend_post(&mut self, post: Option<Arc<Post>>) {
+        self.finish_display();
         self.lent.post = post;
         if let Some(inputs) = &self.inputs {
             self.fit_post(Need::of(&inputs.frame));

@@ -6,13 +6,10 @@
 
 use super::{
     buffers::{group, storage},
-    lattice::WORKGROUP_THREADS,
+    lattice::{BLOCK_THREADS, WORKGROUP_BLOCKS},
     layouts::Layouts,
 };
 use crate::scene::{MAX_LIGHTS, param};
-
-/// Threads per block; `BLOCK_THREADS` in `shaders/lib/lattice.wgsl`.
-pub const BLOCK_THREADS: u32 = 8;
 
 /// Number of ray queues; `RAY_QUEUES` in `shaders/types/work_queues.wgsl`.
 ///
@@ -69,7 +66,7 @@ impl WorkQueues {
     /// Allocates queues for every block of `workgroups` workgroups, and regions of their samples for paths.
     pub fn new(layouts: &Layouts, workgroups: u32, for_paths: bool) -> Self {
         let device = &layouts.gpu.device;
-        let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
+        let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_BLOCKS);
         let counters = WORD * (RAY_QUEUES as u64 + 1);
         let regions = if for_paths { SAMPLE_REGIONS * u64::from(BLOCK_THREADS) } else { 0 };
         let blocks = storage(device, "work queues", counters + (3 + regions) * WORD * most);

@@ -37,9 +37,14 @@ thread_local! {
 pub fn async_compile(device: &wgpu::Device) -> Option<AsyncCompile> {
     let device = device.as_webgpu()?;
     let method = Reflect::get(device.as_ref(), &CREATE_ASYNC.into()).ok()?;
-    let cores = web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency());
-    let at_once = (cores / 2.0).max(1.0) as usize;
+    let at_once = (processor_cores() / 2).max(1) as usize;
     method.is_function().then_some(AsyncCompile { begin, take, at_once })
+}
+
+/// Number of the processor's cores that the browser tells, at least 1.
+pub fn processor_cores() -> u32 {
+    web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency()).max(1.0)
+        as u32
 }
 
 /// Starts to compile the pipeline that `create` creates. The flag turns true at the end.

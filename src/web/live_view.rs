@@ -108,7 +108,8 @@ impl LiveView {
         let Some(view) = &self.view else { return false };
         let report = view.report();
         let is_at_rest = matches!(report.activity, Activity::Idle | Activity::Refining);
-        is_at_rest && report.samples_done > 0 && !view.has_pending_scene()
+        let is_shown = report.samples_done > 0 && !view.is_amid_display();
+        is_at_rest && is_shown && !view.has_pending_scene()
     }
 
     /// Compute dispatches so far.

@@ -18,7 +18,10 @@ use super::{
     app::App, async_compile, engine, error_log, exporter::Exporter, page, session::Session,
     test_hook::TestHook,
 };
-use crate::{gpu::Gpu, render::MAX_REGION_PX};
+use crate::{
+    gpu::{Cpu, Gpu},
+    render::MAX_REGION_PX,
+};
 
 thread_local! {
     /// The page's only host. GPU callbacks must be `Send`, so they can't own the host.
@@ -66,6 +69,7 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
 async fn start_app(host: &Rc<AppHost>, exporter: Option<Exporter>) -> Result<(), String> {
     let mut gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
     gpu.async_compile = async_compile::async_compile(&gpu.device);
+    gpu.cpu = gpu.cpu.map(|cpu| Cpu { cores: async_compile::processor_cores(), ..cpu });
     let generation = host.generation.get() + 1;
     host.generation.set(generation);
     restart_on_loss(&gpu.device, generation);

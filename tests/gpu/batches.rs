@@ -1,10 +1,12 @@
-//! Batches of work, and parts of a batch: their sizes change nothing in a picture.
+//! Batches of work, parts of a batch, and runs of blocks: their sizes change nothing in a picture.
+
+use std::sync::Arc;
 
 use glam::DVec3;
 use mandelight::{
-    gpu::readback::Readback,
+    gpu::{Cpu, readback::Readback},
     render::{
-        Region, frame, integrator,
+        Pipelines, Region, frame, integrator,
         recorder::{Dispatches, Recorder},
         schedule::{BATCH_WORKGROUPS, Points, Stage, Trace, Work},
         sky::SkyCache,
@@ -14,17 +16,39 @@ use mandelight::{
     },
     scene::{IndirectKind, IntegratorKind, PointLight, RigKind, Scene},
 };
-use mandelight_test_support::device::pipelines;
+use mandelight_test_support::device::{fresh_gpu, pipelines};
 
 /// Width and height of the picture: a sample of each pixel fills two and a half batches.
 const SIZE: [u32; 2] = [640, 512];
+/// The same of a picture in runs of few blocks: not whole workgroups.
+const SMALL: [u32; 2] = [51, 37];
+
+/// How a batch is submitted.
+#[derive(Clone, Copy, Debug)]
+enum Cut {
+    /// In so many parts, each with some of the lights.
+    Parts(u32),
+    /// In runs of so many blocks.
+    Runs(u32),
+}
+
+const WHOLE: Cut = Cut::Parts(1);
+
+fn film(scene: &Scene, size_px: [u32; 2], from: Option<u32>, cut: Cut) -> (Vec<Vec<u8>>, Vec<u32>) {
+    film_by(pipelines(), scene, size_px, from, cut)
+}
 
 /// The film after the centre samples and two more of each pixel. The batches are as large as the work from the sample
-/// `from` on; they stay as they are without one. Each is submitted in so many `parts`.
-fn film(scene: &Scene, from: Option<u32>, parts: u32) -> (Vec<Vec<u8>>, Vec<u32>) {
-    let pipelines = pipelines();
+/// `from` on; they stay as they are without one.
+fn film_by(
+    pipelines: &Arc<Pipelines>,
+    scene: &Scene,
+    size_px: [u32; 2],
+    from: Option<u32>,
+    cut: Cut,
+) -> (Vec<Vec<u8>>, Vec<u32>) {
     let gpu = &pipelines.gpu;
-    let region = Region::whole(SIZE);
+    let region = Region::whole(size_px);
     let sky = SkyCache::default().sky_of(scene, None);
     let space = RenderSpace::of(scene, region);
     let inputs = Inputs::about(scene, region, &space).with_sky(scene, &space, sky.as_ref());
@@ -42,14 +66,14 @@ fn film(scene: &Scene, from: Option<u32>, parts: u32) -> (Vec<Vec<u8>>, Vec<u32>
             0 => Points::Level(0),
             _ => Points::Samples { first: sample, count: 1 },
         };
-        let trace = Trace::whole(points, center, u64::MAX, SIZE);
+        let trace = Trace::whole(points, center, u64::MAX, size_px);
         if from.is_some_and(|from| sample >= from)
-            && targets.fit_batch(&pipelines.layouts, trace.workgroups)
+            && targets.fit_batch(&pipelines.layouts, trace.workgroups())
         {
             (integrator.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
         }
         let batches = Work::Trace(trace).batches(targets.batch_workgroups);
-        for part in batches.flat_map(|batch| parts_of(batch, parts)) {
+        for part in batches.flat_map(|batch| cut_up(batch, cut)) {
             let mut recorder =
                 Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
             frame::record(integrator, &mut recorder, part);
@@ -63,9 +87,13 @@ fn film(scene: &Scene, from: Option<u32>, parts: u32) -> (Vec<Vec<u8>>, Vec<u32>
     (buffers.map(read).to_vec(), sizes)
 }
 
-fn parts_of(batch: Work, count: u32) -> Vec<Work> {
+fn cut_up(batch: Work, cut: Cut) -> Vec<Work> {
     let Work::Trace(trace) = batch else { panic!("{batch:?} is no trace") };
-    (0..count).map(|index| Work::Trace(trace.part(index, count, u64::MAX))).collect()
+    let pieces: Vec<Trace> = match cut {
+        Cut::Parts(count) => (0..count).map(|index| trace.part(index, count, u64::MAX)).collect(),
+        Cut::Runs(blocks) => trace.runs(blocks).collect(),
+    };
+    pieces.into_iter().map(Work::Trace).collect()
 }
 
 fn assert_same(found: &[Vec<u8>], expected: &[Vec<u8>], name: &str) {
@@ -93,25 +121,49 @@ fn parts_draw_the_same_picture() {
     for indirect in [IndirectKind::Off, IndirectKind::Horizon] {
         let mut scene = with_six_lights();
         scene.indirect.kind = indirect;
-        let (expected, _) = film(&scene, None, 1);
+        let (expected, _) = film(&scene, SIZE, None, WHOLE);
         for parts in [2, 5] {
-            let (found, _) = film(&scene, None, parts);
+            let (found, _) = film(&scene, SIZE, None, Cut::Parts(parts));
             assert_same(&found, &expected, &format!("{parts} parts, {indirect:?}"));
+        }
+    }
+}
+
+fn direct_and_traced() -> [(&'static str, Scene); 2] {
+    let mut traced = Scene::default();
+    (traced.integrator.kind, traced.integrator.bounces) = (IntegratorKind::Path, 2);
+    traced.lights.rig.kind = RigKind::Sky;
+    [("direct light", Scene::default()), ("light paths", traced)]
+}
+
+/// Runs begin and end within workgroups. On a CPU adapter, few blocks have more workgroups than they fill: with four lanes to a
+/// core, a block may have two.
+#[test]
+fn runs_of_few_blocks_draw_the_same_picture() {
+    let of_lanes = |lanes| {
+        let mut gpu = fresh_gpu();
+        gpu.cpu = Some(Cpu { cores: 2, lanes });
+        Pipelines::new(&gpu)
+    };
+    let all_lanes = [4, 8].map(|lanes| (lanes, of_lanes(lanes)));
+    for (name, scene) in direct_and_traced() {
+        let (expected, _) = film(&scene, SMALL, None, WHOLE);
+        for (lanes, pipelines) in &all_lanes {
+            for blocks in [1, 3, 7, 11, 50] {
+                let (found, _) = film_by(pipelines, &scene, SMALL, None, Cut::Runs(blocks));
+                assert_same(&found, &expected, &format!("{name}, {lanes} lanes, runs of {blocks}"));
+            }
         }
     }
 }
 
 #[test]
 fn larger_batches_draw_the_same_picture() {
-    let direct = Scene::default();
-    let mut traced = Scene::default();
-    (traced.integrator.kind, traced.integrator.bounces) = (IntegratorKind::Path, 2);
-    traced.lights.rig.kind = RigKind::Sky;
-    for (name, scene) in [("direct light", direct), ("light paths", traced)] {
-        let (expected, small) = film(&scene, None, 1);
+    for (name, scene) in direct_and_traced() {
+        let (expected, small) = film(&scene, SIZE, None, WHOLE);
         assert_eq!(small, [BATCH_WORKGROUPS; 3], "{name}");
         for from in 0..3 {
-            let (found, sizes) = film(&scene, Some(from), 1);
+            let (found, sizes) = film(&scene, SIZE, Some(from), WHOLE);
             let has_grown = sizes
                 .iter()
                 .zip(0..)

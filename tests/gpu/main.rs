@@ -7,6 +7,7 @@ mod colors;
 mod compiling;
 mod deep;
 mod depth;
+mod display_parts;
 mod dives;
 mod edits;
 mod environment_map;

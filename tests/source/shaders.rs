@@ -102,6 +102,11 @@ fn every_pass_has_one_entry_point_of_64_threads_within_default_limits() {
 /// A host-shared struct: its name in WGSL, its size in bytes and its fields.
 type HostStruct = (&'static str, usize, &'static [(&'static str, usize, usize)]);
 
+/// The structs of the renderer.
+fn render_structs() -> impl Iterator<Item = HostStruct> {
+    uniforms::HOST_SHARED.iter().chain(uniforms::OF_DISPATCHES).copied()
+}
+
 /// The structs of a formula, whose kernels' files begin with its id.
 fn formula_structs(id: &str) -> Vec<HostStruct> {
     match id {
@@ -124,7 +129,7 @@ fn host_structs_match_their_wgsl_twins() {
             module.files.iter().any(|file| file.path.starts_with(&format!("{}/", formula.id())))
         });
         let own = formula.map_or_else(Vec::new, |formula| formula_structs(formula.id()));
-        for (name, size, fields) in uniforms::HOST_SHARED.iter().copied().chain(own) {
+        for (name, size, fields) in render_structs().chain(own) {
             let Some((span, members)) = wgsl.get(name) else { continue };
             seen.push((name, size));
             let mut members = members.clone();
@@ -143,7 +148,7 @@ fn host_structs_match_their_wgsl_twins() {
         }
     }
     let formulas = formula::all().flat_map(|formula| formula_structs(formula.id()));
-    for (name, size, _) in uniforms::HOST_SHARED.iter().copied().chain(formulas) {
+    for (name, size, _) in render_structs().chain(formulas) {
         assert!(seen.contains(&(name, size)), "no shader knows the host's struct {name}");
     }
 }
@@ -257,8 +262,8 @@ fn host_constants_match_their_wgsl_twins() {
         ("GRADIENT_ENTRIES", uniforms::GRADIENT_ENTRIES as f64),
         ("WORKGROUP_SIDE", whole(lattice::WORKGROUP_SIDE)),
         ("WORKGROUP_THREADS", whole(lattice::WORKGROUP_THREADS)),
-        ("BLOCK_THREADS", whole(work_queues::BLOCK_THREADS)),
-        ("BLOCKS", whole(lattice::WORKGROUP_THREADS / work_queues::BLOCK_THREADS)),
+        ("BLOCK_THREADS", whole(lattice::BLOCK_THREADS)),
+        ("BLOCKS", whole(lattice::WORKGROUP_BLOCKS)),
         ("RAY_QUEUES", work_queues::RAY_QUEUES as f64),
         ("SERIES", mandelbulb::uniforms::SERIES as f64),
         ("MAX_REFERENCE_POINTS", deep::reference::MAX_REFERENCE_POINTS as f64),

@@ -2,6 +2,7 @@
 
 use super::{blur, reduce};
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     pipeline_set,
     post::{BlurKernel, FIRST_LEVEL, Levels},
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -15,7 +16,11 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Film { when: |recorder, _| recorder.tasks.bloom, record },
+    record: Record::Film {
+        parts: PartRange::only(DisplayPart::Post),
+        when: |recorder, _| recorder.tasks.bloom,
+        record,
+    },
 };
 
 /// Leaves the blurred light in the mip level that the statistics name.

@@ -20,5 +20,5 @@ pub const PASS: Pass = Pass {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
     let params = recorder.dispatch_params(trace, grid);
-    recorder.dispatch(&pipeline, params, trace.workgroups);
+    recorder.dispatch(&pipeline, params, trace.workgroups());
 }

@@ -1,6 +1,7 @@
 //! Auto exposure from the film's mean.
 
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     pipeline_set,
     post::Levels,
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -14,7 +15,11 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Film { when: |recorder, _| recorder.tasks.adapt.is_some(), record },
+    record: Record::Film {
+        parts: PartRange::only(DisplayPart::Post),
+        when: |recorder, _| recorder.tasks.adapt.is_some(),
+        record,
+    },
 };
 
 /// Moves exposure toward its goal.

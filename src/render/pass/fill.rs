@@ -1,6 +1,7 @@
 //! Fills the film between the pixels of a sparse lattice, along edges.
 
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     lattice::Grid,
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -13,7 +14,11 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.film],
     set: &pipeline_set::ALWAYS,
     modes: ONE_MODE,
-    record: Record::Film { when: |_, display| display.fill, record },
+    record: Record::Film {
+        parts: PartRange::only(DisplayPart::Fill),
+        when: |_, display| display.fill,
+        record,
+    },
 };
 
 /// Fills every level below that of `display`, except kept pixels, coarsest first: each level reads the one before.

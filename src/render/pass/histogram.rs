@@ -1,6 +1,7 @@
 //! The film's histogram.
 
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -14,7 +15,11 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Film { when: |recorder, _| recorder.tasks.histogram, record },
+    record: Record::Film {
+        parts: PartRange::only(DisplayPart::Post),
+        when: |recorder, _| recorder.tasks.histogram,
+        record,
+    },
 };
 
 /// Counts the film's pixels by luminance.

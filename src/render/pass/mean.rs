@@ -2,6 +2,7 @@
 
 use super::reduce;
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -15,7 +16,11 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Film { when: |recorder, _| recorder.tasks.mean, record },
+    record: Record::Film {
+        parts: PartRange::only(DisplayPart::Post),
+        when: |recorder, _| recorder.tasks.mean,
+        record,
+    },
 };
 
 /// Computes all mip levels of the film, down to one element per eye.

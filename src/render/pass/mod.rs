@@ -126,6 +126,16 @@ mod tests {
         }
     }
 
+    /// Parts of a display that are submitted one after another run its passes in the order of the table.
+    #[test]
+    fn parts_of_a_display_follow_the_table() {
+        let parts = DISPLAY.iter().filter_map(|pass| match pass.record {
+            Record::Film { parts, .. } => Some(parts),
+            _ => None,
+        });
+        assert!(parts.is_sorted_by(|a, b| a == b || a.last < b.first));
+    }
+
     #[test]
     fn no_list_has_a_pass_twice() {
         for list in INTEGRATORS.iter().copied().chain([DISPLAY]) {

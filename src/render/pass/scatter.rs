@@ -46,7 +46,7 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         let enqueue = work_queues.enqueue_after(bounce);
         if bounce == 0 {
             recorder.bind(2, enqueue);
-            recorder.dispatch(&scatter, params, trace.workgroups);
+            recorder.dispatch(&scatter, params, trace.workgroups());
         } else {
             let queue = Queue::Vertex(paths);
             recorder.dispatch_queue(&march, &work_queues.dequeue, params, queue);

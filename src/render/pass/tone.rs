@@ -1,6 +1,7 @@
 //! Film to display: exposure, tone curve, bloom, sRGB, dither.
 
 use crate::render::{
+    display_parts::{DisplayPart, PartRange},
     lattice::Grid,
     pipeline_set,
     recorder::{Pass, Record, Recorder},
@@ -14,7 +15,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film, &layouts.denoised],
     set: &pipeline_set::TONE,
     modes: &[&[("SPARSE", 0)], &[("SPARSE", 1)]],
-    record: Record::Film { when: |_, _| true, record },
+    record: Record::Film { parts: PartRange::only(DisplayPart::Tone), when: |_, _| true, record },
 };
 
 /// Tone maps the film of the whole region to the display picture.

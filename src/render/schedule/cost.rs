@@ -14,16 +14,11 @@
 use super::{
     division::Division,
     plan::{Plan, SampleCost, WorkKind},
-    rate::{CostHistory, Rate},
+    rate::{CostHistory, FIRST_RAYS, Rate},
     types::{Arithmetic, Phase},
     work::Job,
 };
-use crate::render::lattice::WORKGROUP_THREADS;
-
-/// Fewest workgroups of a piece: two can be halved.
-///
-/// Pieces of one workgroup each can't separate the fixed cost from the cost of rays.
-pub const MIN_WORKGROUPS: u32 = 2;
+use crate::render::lattice::BLOCK_THREADS;
 
 /// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.
 const MAX_INTERFACE_MS: f64 = 200.0;
@@ -107,6 +102,11 @@ impl Cost {
         self.histories[PATHS..SHADING].fill(CostHistory::default());
     }
 
+    /// Forgets what shading alone and indirect light cost: no opening of another view shows it, as one shows the cost of rays.
+    pub fn forget_shading(&mut self) {
+        self.histories[SHADING..].fill(CostHistory::default());
+    }
+
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
     pub fn set_casting(&mut self, casting: u64) {
         self.casting = casting;
@@ -186,20 +186,38 @@ impl Cost {
     fn rate_by(&self, arithmetic: Arithmetic, phase: Phase, kind: WorkKind) -> Option<Rate> {
         let rate = |kind: WorkKind| self.histories[history_index(kind, arithmetic)].rate(phase);
         rate(kind).or_else(|| match kind {
-            WorkKind::Indirect => rate(WorkKind::Tracing).map(Rate::untried),
-            WorkKind::Paths => {
-                rate(WorkKind::Tracing).map(|rate| rate.scaled(RAYS_OF_PATH).untried())
+            WorkKind::Indirect => rate(WorkKind::Tracing).map(|rate| rate.untried(1.0)),
+            // Openings are as fine as those of rays, so that the first picture of an edit is.
+            WorkKind::Shading if phase == Phase::Refining => {
+                rate(WorkKind::Tracing).map(|rate| rate.untried(1.0))
             }
+            WorkKind::Paths => rate(WorkKind::Tracing).map(|rate| rate.untried(RAYS_OF_PATH)),
             WorkKind::Tracing | WorkKind::Shading => rate(WorkKind::Tracing),
         })
     }
 
-    /// Workgroups of the next refining piece, whose rays are to take `aim_ms` ([`Rate::rays`]).
-    pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
+    /// Blocks of the next refining piece, whose rays are to take `aim_ms` ([`Rate::rays`]).
+    pub fn piece_blocks(&self, aim_ms: f64, job: Job) -> u32 {
+        let rate = self.rate(Phase::Refining, self.sample_cost(job).kind);
+        self.blocks_of(rate.rays(aim_ms), job)
+    }
+
+    /// Blocks of the first piece of a view whose rays may take any time.
+    pub fn first_blocks(&self, job: Job) -> u32 {
+        self.blocks_of(FIRST_RAYS, job)
+    }
+
+    /// What a refining piece of so many blocks takes whatever its size, and what its rays take, milliseconds.
+    pub fn piece_ms(&self, blocks: u32, job: Job) -> (f64, f64) {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
-        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_sample;
-        (rate.rays(aim_ms) / workgroup).clamp(MIN_WORKGROUPS.into(), 1e9) as u32
+        (rate.fixed_ms, rate.ray_ms * f64::from(blocks * BLOCK_THREADS) * rays_of_sample)
+    }
+
+    /// How many blocks have so many rays.
+    fn blocks_of(&self, rays: f64, job: Job) -> u32 {
+        let rays_of_block = f64::from(BLOCK_THREADS) * self.sample_cost(job).rays;
+        (rays / rays_of_block).min(1e9) as u32
     }
 
     /// Whether an opening fits a budget, with its display and the work in flight.

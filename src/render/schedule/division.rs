@@ -1,7 +1,7 @@
 //! In how many parts a long piece is submitted.
 //!
-//! In: what pieces of few and of many parts took. Out: the parts of the next one. Even the fewest workgroups may take longer
-//! than a piece should, with many lights most of it for shadow rays. Each part marches those to some of the lights, and
+//! In: what pieces of few and of many parts took. Out: the parts of the next one. Even the smallest piece may take longer
+//! than it should, with many lights most of it for shadow rays. Each part marches those to some of the lights, and
 //! between parts frames of the interface can be drawn. What a part costs beside its rays, in a browser mostly the latency of
 //! its completion, is its overhead. It is found by trying: with a long latency, the parts of a piece take longer than the piece.
 

@@ -62,9 +62,9 @@ pub struct Progress {
     indirect_shaded: Option<u32>,
     /// Whole samples of every pixel.
     pub samples_done: u32,
-    /// The points under way and the next workgroup to submit.
+    /// The points under way and the next block to submit.
     pub under_way: Option<(Points, u32)>,
-    /// The next part of the next workgroups, if these are submitted in parts.
+    /// The next part of the next blocks, if these are submitted in parts.
     next_part: Option<NextPart>,
     /// Whether a filled preview is on the film while pixels are under way.
     pub is_filled: bool,
@@ -250,10 +250,10 @@ impl Progress {
         }
     }
 
-    /// Marks points as submitted up to a workgroup. True where the film can be shown meanwhile.
-    pub fn advance(&mut self, points: Points, next_workgroup: u32) -> bool {
+    /// Marks points as submitted up to a block. True where the film can be shown meanwhile.
+    pub fn advance(&mut self, points: Points, next_block: u32) -> bool {
         self.invalidate_visibility_under_paths(points);
-        self.under_way = Some((points, next_workgroup));
+        self.under_way = Some((points, next_block));
         // The film holds a complete lattice, and pixels under way that need no indirect light.
         let is_filmed = match points {
             Points::All => self.is_filled,
@@ -265,11 +265,11 @@ impl Progress {
 
     /// Begins to submit `whole` in `count` parts: returns the first one. `casting`: the lights that cast shadows.
     pub fn divide(&mut self, whole: Trace, count: u32, casting: u64) -> Trace {
-        self.under_way = Some((whole.points, whole.first_workgroup));
+        self.under_way = Some((whole.points, whole.first_block));
         self.begin_part(NextPart { whole, index: 0, count, casting })
     }
 
-    /// Takes the next part of the workgroups that are submitted in parts; none if there are none.
+    /// Takes the next part of the blocks that are submitted in parts; none if there are none.
     pub fn take_part(&mut self) -> Option<Trace> {
         self.next_part.take().map(|next| self.begin_part(next))
     }
@@ -290,7 +290,7 @@ impl Progress {
     pub fn samples_so_far(&self) -> f32 {
         let pixels_at = |level: u32| 1.0 / (1_u64 << level) as f32;
         let share = self.under_way.map_or(0.0, |(points, next)| {
-            next as f32 / points.grid(self.size_px).workgroups().max(1) as f32
+            next as f32 / points.grid(self.size_px).blocks().max(1) as f32
         });
         let before = match self.samples_done {
             0 => self.shaded.map_or(0.0, pixels_at),

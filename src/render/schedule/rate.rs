@@ -7,8 +7,8 @@ use std::collections::VecDeque;
 
 use super::types::Phase;
 
-/// Rays of the first piece of a kind: few enough for a device 200 times slower than a desktop's.
-const FIRST_RAYS: f64 = 4096.0;
+/// Rays of the first piece of a kind, and of a view: few enough for a device 200 times slower than a desktop's.
+pub const FIRST_RAYS: f64 = 4096.0;
 
 /// Cost of a ray before anything is measured, milliseconds.
 const ASSUMED_MS: f64 = 0.001;
@@ -109,9 +109,10 @@ impl Rate {
         Self { ray_ms: self.ray_ms * factor, ..self }
     }
 
-    /// The same rate for a kind of work that has not been tried.
-    pub fn untried(self) -> Self {
-        Self { max_rays: FIRST_RAYS, careful_rays: FIRST_RAYS, ..self }
+    /// The same rate for a kind of work that has not been tried, whose samples are assumed to take as long as `factor` rays.
+    pub fn untried(self, factor: f64) -> Self {
+        let first = FIRST_RAYS / factor;
+        Self { max_rays: first, careful_rays: first, ..self.scaled(factor) }
     }
 }
 

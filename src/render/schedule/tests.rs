@@ -27,6 +27,8 @@ struct Device {
     sparser: f64,
     /// Cost of a light path, in pixels.
     path: f64,
+    /// Cost of shading alone, in shadings of a cheap scene.
+    shade: f64,
     /// The lights that have shadow rays.
     casting: u64,
     spike_ms: f64,
@@ -69,6 +71,7 @@ impl Device {
             pixel_ns: 20.0 * slowness,
             sparser: 1.0,
             path: 1.0,
+            shade: 1.0,
             casting: u64::MAX,
             spike_ms,
             busy_until: 0.0,
@@ -97,7 +100,11 @@ impl Device {
                 let lights = f64::from((trace.lights & self.casting).count_ones());
                 let is_sparse = matches!(trace.points, Points::Level(1..) | Points::Added(_));
                 let each = if is_sparse { self.sparser } else { 1.0 };
-                let each = if trace.from == Stage::Path { self.path } else { each };
+                let each = match trace.from {
+                    Stage::Path => self.path,
+                    Stage::Shade => self.shade * each,
+                    _ => each,
+                };
                 whole * each * share_of_frame(trace.from, lights)
             }
             Work::Display(_) => f64::from(SIZE[0] * SIZE[1]) * 0.02,

@@ -63,9 +63,9 @@ pub struct Status {
     pub samples_done: u32,
     /// `samples_done` with the submitted part of the samples under way.
     pub samples_so_far: f32,
-    /// Level of the lattice in the picture shown last.
+    /// Level of the lattice in the newest display, which may be under way.
     pub shown_level: u32,
-    /// True once a picture of the last change has been shown.
+    /// True once a display of the last change has begun.
     pub shown: bool,
     /// True while the opening lattice follows a movement.
     pub moving: bool,

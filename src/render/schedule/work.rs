@@ -1,7 +1,7 @@
 //! What a schedule hands out: one piece of work.
 
 use crate::render::{
-    lattice::{Grid, WORKGROUP_THREADS},
+    lattice::{BLOCK_THREADS, Grid, WORKGROUP_BLOCKS},
     region::Overlap,
 };
 
@@ -17,8 +17,8 @@ pub const BATCH_WORKGROUPS: u32 = 2048;
 /// rays together, so that batches grow there ([`Targets::fit_batch`](crate::render::targets::Targets::fit_batch)).
 pub const MAX_BATCH_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
-/// Most workgroups in a piece of work: a megapixel, and one of the largest batches.
-pub const MAX_PIECE_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
+/// Most blocks in a piece of work: a megapixel, and one of the largest batches.
+pub const MAX_PIECE_BLOCKS: u32 = MAX_BATCH_WORKGROUPS * WORKGROUP_BLOCKS;
 
 /// Which sample points a trace computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +129,7 @@ pub struct Part {
     pub whole: Job,
 }
 
-/// A run of workgroups over some sample points.
+/// A run of blocks over some sample points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
     /// The sample points.
@@ -138,10 +138,10 @@ pub struct Trace {
     pub from: Stage,
     /// The lights whose shadow rays are marched, by their visibility bits; the bits of others stay.
     pub lights: u64,
-    /// First workgroup of the points' grid.
-    pub first_workgroup: u32,
-    /// How many workgroups.
-    pub workgroups: u32,
+    /// First block of the points' grid, in the order of its workgroups.
+    pub first_block: u32,
+    /// How many blocks.
+    pub blocks: u32,
     /// The pixels that are not computed.
     pub kept: KeptPixels,
     /// Which part of the samples' lights it is; none for all of them.
@@ -151,9 +151,9 @@ pub struct Trace {
 impl Trace {
     /// All of `points`, in a region of `size_px`.
     pub fn whole(points: Points, from: Stage, lights: u64, size_px: [u32; 2]) -> Self {
-        let workgroups = points.grid(size_px).workgroups();
+        let blocks = points.grid(size_px).blocks();
         let kept = KeptPixels::default();
-        Self { points, from, lights, first_workgroup: 0, workgroups, kept, part: None }
+        Self { points, from, lights, first_block: 0, blocks, kept, part: None }
     }
 
     /// Part `index` of `count`, each with about as many of the lights that cast shadows. The first part has all others, and
@@ -187,18 +187,28 @@ impl Trace {
     }
 
     /// Parts of the trace that have at most so many workgroups, in order.
-    fn batches(self, batch_workgroups: u32) -> impl Iterator<Item = Self> {
-        let end = self.first_workgroup + self.workgroups;
-        (self.first_workgroup..end).step_by(batch_workgroups as usize).map(move |first| Self {
-            first_workgroup: first,
-            workgroups: batch_workgroups.min(end - first),
+    pub fn batches(self, batch_workgroups: u32) -> impl Iterator<Item = Self> {
+        self.runs(batch_workgroups * WORKGROUP_BLOCKS)
+    }
+
+    /// Parts of the trace that have at most so many blocks, in order.
+    pub fn runs(self, most_blocks: u32) -> impl Iterator<Item = Self> {
+        let end = self.first_block + self.blocks;
+        (self.first_block..end).step_by(most_blocks as usize).map(move |first| Self {
+            first_block: first,
+            blocks: most_blocks.min(end - first),
             ..self
         })
     }
 
+    /// How many workgroups hold its blocks.
+    pub fn workgroups(&self) -> u32 {
+        self.blocks.div_ceil(WORKGROUP_BLOCKS)
+    }
+
     /// About how many samples it computes, with those of the last workgroups that lie outside the region.
     pub fn samples(&self) -> u32 {
-        self.kept.computed(self.workgroups * WORKGROUP_THREADS)
+        self.kept.computed(self.blocks * BLOCK_THREADS)
     }
 
     /// What is done for each of its points, by all parts.
@@ -260,26 +270,27 @@ mod tests {
 
     #[test]
     fn batches_cover_a_trace_once_and_in_order() {
-        for (first_workgroup, workgroups) in [(0, 1), (7, BATCH_WORKGROUPS), (100, 5000)] {
+        let most = BATCH_WORKGROUPS * WORKGROUP_BLOCKS;
+        for (first_block, blocks) in [(0, 1), (7, most), (100, 40_003)] {
             let points = Points::Level(0);
             let trace = Trace {
                 points,
                 from: Stage::Normal,
                 lights: 5,
-                first_workgroup,
-                workgroups,
+                first_block,
+                blocks,
                 kept: KeptPixels::default(),
                 part: None,
             };
-            let mut next = first_workgroup;
+            let mut next = first_block;
             for batch in Work::Trace(trace).batches(BATCH_WORKGROUPS) {
                 let Work::Trace(batch) = batch else { panic!("{batch:?} is no trace") };
                 assert_eq!((batch.job(), batch.points), (trace.job(), points));
-                assert_eq!(batch.first_workgroup, next);
-                assert!((1..=BATCH_WORKGROUPS).contains(&batch.workgroups));
-                next += batch.workgroups;
+                assert_eq!(batch.first_block, next);
+                assert!((1..=most).contains(&batch.blocks));
+                next += batch.blocks;
             }
-            assert_eq!(next, first_workgroup + workgroups);
+            assert_eq!(next, first_block + blocks);
         }
         let display = Work::Display(Display {
             level: 3,
@@ -307,7 +318,7 @@ mod tests {
                 let starts = if index == 0 { Stage::Normal } else { Stage::Shadow };
                 assert_eq!((part.from, part.shades()), (starts, index + 1 == count));
                 assert_eq!(part.job(), whole.job());
-                assert_eq!(part.workgroups, whole.workgroups);
+                assert_eq!(part.blocks, whole.blocks);
             }
         }
         assert!(whole.shades());

@@ -9,6 +9,7 @@ impl View {
         if values == self.display_values {
             return;
         }
+        self.finish_display();
         self.display_values = values;
         self.fit_display();
         self.pending = self.pending.take().or_else(|| self.scene.clone());

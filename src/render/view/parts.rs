@@ -1,8 +1,9 @@
-//! Parts of a view: what its pictures took, the newest of them, what other views lend.
+//! Parts of a view: what its pictures took, the newest of them, what is submitted, what other views lend.
 
 use std::sync::Arc;
 
 use crate::render::{
+    display_parts::PartRange,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     post::{Need, Post, Tasks},
@@ -34,26 +35,53 @@ pub struct Times {
     pieces: Option<Vec<PieceTime>>,
 }
 
-/// The GPU time of a piece of work, as [`Stopwatch`](crate::gpu::timing::Stopwatch) measures it.
+/// The GPU time of one submit of a view, a piece of work or parts of a display, as
+/// [`Stopwatch`](crate::gpu::timing::Stopwatch) measures it.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceTime {
     /// The piece.
     pub work: Work,
+    /// The parts of a display in parts; none of other work.
+    pub parts: Option<PartRange>,
     /// Its time, milliseconds.
     pub busy_ms: f64,
 }
 
+/// What a view has submitted, for its stopwatch.
+#[derive(Clone, Copy, Debug)]
+pub struct Submitted {
+    /// The piece of work.
+    pub work: Work,
+    /// The parts of a display in parts; none of other work.
+    pub parts: Option<PartRange>,
+}
+
+/// What a piece of work is recorded from, beside the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Recording {
+    /// The piece of work.
+    pub work: Work,
+    /// The post passes of a display.
+    pub tasks: Tasks,
+    /// The lattice level that a display is upsampled from.
+    pub upsample_level: Option<u32>,
+    /// Whether a display shows denoised light.
+    pub denoises: bool,
+}
+
 impl Times {
-    /// Adds the GPU time of a piece of work that has finished.
-    pub fn add(&mut self, work: Work, busy_ms: f64) {
+    /// Adds the GPU time of a piece of work that has finished, or of parts of a display.
+    pub fn add(&mut self, piece: PieceTime) {
         if let Some(pieces) = &mut self.pieces {
-            pieces.push(PieceTime { work, busy_ms });
+            pieces.push(piece);
         }
-        self.busy_ms += busy_ms;
-        if matches!(work, Work::Display(_)) {
-            self.frame_ms = std::mem::take(&mut self.busy_ms);
-            self.pictures += 1;
-        }
+        self.busy_ms += piece.busy_ms;
+    }
+
+    /// Notes that a picture is complete.
+    pub fn note_picture(&mut self) {
+        self.frame_ms = std::mem::take(&mut self.busy_ms);
+        self.pictures += 1;
     }
 
     /// Sets whether the times of pieces are recorded; those recorded before are dropped at a change.
@@ -194,13 +222,13 @@ mod tests {
         });
         let mut times = Times::default();
         let recorded = |times: &mut Times, busy_ms: f64| {
-            times.add(work, busy_ms);
+            times.add(PieceTime { work, parts: None, busy_ms });
             times.take_pieces().iter().map(|piece| piece.busy_ms).collect::<Vec<_>>()
         };
         assert!(recorded(&mut times, 1.0).is_empty(), "not yet");
         times.watch_pieces(true);
         assert_eq!(recorded(&mut times, 2.0), [2.0], "from the first one on");
-        times.add(work, 3.0);
+        times.add(PieceTime { work, parts: None, busy_ms: 3.0 });
         times.watch_pieces(true);
         assert_eq!(recorded(&mut times, 4.0), [3.0, 4.0]);
         times.watch_pieces(false);

@@ -32,7 +32,7 @@ impl View {
     pub(super) fn clear_path_counts(&self, work: Work) {
         if let Work::Trace(Trace {
             points: Points::Samples { first: 1, .. },
-            first_workgroup: 0,
+            first_block: 0,
             kept: KeptPixels { share: 0.0, .. },
             ..
         }) = work

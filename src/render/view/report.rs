@@ -48,8 +48,9 @@ impl View {
 
     /// The GPU times of the pieces of work that have finished since the last call.
     ///
-    /// None unless [`Self::watch_piece_times`] has begun to record them.
+    /// None unless [`Self::watch_piece_times`] has begun to record them. The view learns from them, as in [`Self::pump`].
     pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
+        self.collect();
         self.times.take_pieces()
     }
 

@@ -23,7 +23,11 @@ impl View {
         if region == self.region {
             return;
         }
+        self.finish_display();
         let old_region = std::mem::replace(&mut self.region, region);
+        if region.film_px() != old_region.film_px() {
+            self.display_division.forget_times();
+        }
         self.times.note_change();
         let inputs = self.inputs_in_same_space();
         let overlap = inputs.as_ref().and_then(|inputs| self.overlap(inputs, old_region));

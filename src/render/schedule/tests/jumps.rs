@@ -1,6 +1,7 @@
 //! Jumps to views that cost many times what the one before cost.
 
 use super::*;
+use crate::render::lattice::BLOCK_THREADS;
 
 /// Times of the traces from a jump until the picture rests, milliseconds: the other view's opening costs
 /// `of_opening` times as much as before, the rest of it `of_rest` times.
@@ -66,5 +67,67 @@ fn an_opening_that_misses_what_is_expensive_makes_few_pieces_long() {
         let longest = times.iter().copied().fold(0.0, f64::max);
         println!("{factor}: longest {longest:.0} ms, {long} of {}", times.len());
         assert!(long <= 10 && longest <= 8.5 * factor, "{long} of {}, {longest} ms", times.len());
+    }
+}
+
+/// Blocks of the traces up to another view's first picture, in so many lights.
+fn opening_blocks(light_count: u32) -> Vec<u32> {
+    let lights = u64::MAX >> (u64::BITS - light_count);
+    let mut device = Device::new(100.0, 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.set_lights(lights, lights);
+    schedule.aim(4.0, 1);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.change(Stale::Geometry, false, now);
+    let mut blocks = Vec::new();
+    while !schedule.status(now).shown {
+        device.collect(&mut schedule, now);
+        while let Some(work) = schedule.next(now) {
+            if let Work::Trace(trace) = work
+                && !schedule.status(now).shown
+            {
+                assert_eq!(trace.points, Points::Level(COARSEST));
+                blocks.push(trace.blocks);
+            }
+            device.submit(work, now);
+        }
+        now += FRAME_SECS;
+    }
+    blocks
+}
+
+#[test]
+fn another_view_in_many_lights_opens_in_pieces_of_few_rays() {
+    let whole = opening_blocks(3);
+    assert_eq!(whole.len(), 1, "{whole:?}");
+    let divided = opening_blocks(64);
+    println!("{divided:?} of {whole:?} blocks");
+    assert_eq!(divided.iter().sum::<u32>(), whole[0]);
+    // 4096 rays, and what makes them whole workgroups.
+    assert!(divided[0] * BLOCK_THREADS * 65 <= 4200, "{divided:?}");
+    let mut begun = divided[0];
+    for blocks in &divided[1..] {
+        assert!(*blocks < 2 * begun, "{divided:?}");
+        begun += blocks;
+    }
+}
+
+/// What shading took in a cheap scene says nothing of an expensive one, however long the rays of both take.
+#[test]
+fn shading_of_another_view_starts_with_small_pieces() {
+    let (mut device, mut now) = (Device::new(100.0, 0.0), 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(200.0, 1);
+    for shade in [1.0, 40.0] {
+        device.shade = shade;
+        schedule.change(Stale::Geometry, false, now);
+        settle(&mut schedule, &mut device, &mut now);
+        device.longest_ms = 0.0;
+        for _ in 0..3 {
+            schedule.change(Stale::Light, false, now);
+            settle(&mut schedule, &mut device, &mut now);
+        }
+        assert!(device.longest_ms < 250.0, "{shade}: {} ms", device.longest_ms);
     }
 }

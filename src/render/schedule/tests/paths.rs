@@ -2,13 +2,19 @@
 
 use super::*;
 
+/// A schedule of a picture of 64 paths a pixel.
+fn schedule_of_paths() -> Schedule {
+    let mut schedule = Schedule::new(PATH.plan, Pace::Interactive, SIZE);
+    schedule.set_lights(LIGHTS, LIGHTS);
+    schedule.aim(16.0, 64);
+    schedule
+}
+
 /// From the background into a crevice, paths get a hundred times as long: no piece takes a hundred times its time.
 #[test]
 fn paths_of_another_view_start_with_small_pieces() {
     let (mut device, mut now) = (Device::new(1.0, 0.0), 0.0);
-    let mut schedule = Schedule::new(PATH.plan, Pace::Interactive, SIZE);
-    schedule.set_lights(LIGHTS, LIGHTS);
-    schedule.aim(16.0, 64);
+    let mut schedule = schedule_of_paths();
     for path in [0.5, 50.0] {
         (device.path, device.longest_ms) = (path, 0.0);
         schedule.change(Stale::Geometry, false, now);
@@ -17,4 +23,18 @@ fn paths_of_another_view_start_with_small_pieces() {
         let budget_ms = 16.0;
         assert!(device.longest_ms < 2.0 * budget_ms, "{path}: {} ms", device.longest_ms);
     }
+}
+
+/// Of paths nothing is known at first but what rays take, and many bounces make a path take as long as hundreds of them.
+#[test]
+fn the_first_piece_of_paths_has_few() {
+    let (mut device, mut now) = (Device::new(1.0, 0.0), 0.0);
+    let mut schedule = schedule_of_paths();
+    schedule.change(Stale::Geometry, false, now);
+    let works = works_until_rest(&mut schedule, &mut device, &mut now);
+    let first = works.iter().find_map(|work| match work {
+        Work::Trace(trace) if trace.from == Stage::Path => Some(trace.samples()),
+        _ => None,
+    });
+    assert!((128..=704).contains(&first.expect("paths")), "{first:?}");
 }

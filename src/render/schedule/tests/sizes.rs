@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
+use crate::render::lattice::{BLOCK_THREADS, WORKGROUP_BLOCKS};
 
 const NARROW: [u32; 2] = [960, 720];
 
@@ -55,7 +56,7 @@ fn kept_pixels_wait_for_the_samples_of_the_others() {
         };
         assert!(first >= 20 || first + count <= 20, "{first} to {} crosses", first + count);
         assert_eq!(trace.kept.share, if first < 20 { 0.75 } else { 0.0 });
-        let part = f64::from(trace.workgroups) / f64::from(trace.points.grid(SIZE).workgroups());
+        let part = f64::from(trace.blocks) / f64::from(trace.points.grid(SIZE).blocks());
         rounds += part * f64::from(count);
         computed += part * f64::from(count) * f64::from(1.0 - trace.kept.share);
     }
@@ -168,18 +169,18 @@ fn pieces_stay_short_after_a_size_that_keeps_pixels() {
     let (mut now, mut longest_ms) = (0.0, 0.0_f64);
     while let Some(work) = schedule.next(now) {
         let mut ms = 0.1;
-        if let Work::Trace(Trace { points, first_workgroup, workgroups, kept, .. }) = work {
+        if let Work::Trace(Trace { points, first_block, blocks, kept, .. }) = work {
             let grid = points.grid(SIZE);
-            let column = |workgroup| grid.pixel(workgroup, [0, 0])[0];
-            let columns = *columns_of.entry(grid.workgroups()).or_insert_with(|| {
-                8 + (0..grid.workgroups()).map(column).max().expect("a workgroup")
-            });
+            let column = |block| grid.pixel(block / WORKGROUP_BLOCKS, [0, 0])[0];
+            let columns = *columns_of
+                .entry(grid.blocks())
+                .or_insert_with(|| 8 + (0..grid.blocks()).map(column).max().expect("a block"));
             // Part of the way across the picture.
             let kept = kept.first[0] * columns..kept.end[0] * columns;
-            let computed = (first_workgroup..first_workgroup + workgroups)
-                .filter(|&workgroup| !kept.contains(&(column(workgroup) * SIZE[0])))
+            let computed = (first_block..first_block + blocks)
+                .filter(|&block| !kept.contains(&(column(block) * SIZE[0])))
                 .count();
-            ms = 64.0 * computed as f64 * 2e-4;
+            ms = f64::from(BLOCK_THREADS) * computed as f64 * 2e-4;
             if matches!(points, Points::Samples { .. }) {
                 longest_ms = longest_ms.max(ms);
             }

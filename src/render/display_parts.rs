@@ -1,0 +1,315 @@
+//! Divides displays that take long: their parts are submitted one after another.
+//!
+//! In: the parts of a display, and how long submitted parts took. Out: the parts to submit next. Each submit waits for
+//! the end of the one before it, so that frames of the interface and other programs get the GPU between them. A part that was never
+//! measured is submitted alone. Where displays are fast, each later one is a single submit.
+
+use std::collections::{BTreeMap, VecDeque};
+
+/// A step of a display: passes that are never submitted apart. In the order of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum DisplayPart {
+    /// The pixels between those of a sparse lattice, and the mean of sub-frames.
+    Fill,
+    /// Statistics of the whole film, exposure and bloom.
+    Post,
+    /// One iteration of the denoiser: 0 is the first, with the input that is made for it.
+    Denoise(u32),
+    /// From film to display values.
+    Tone,
+}
+
+/// Consecutive parts of a display, submitted together: all that it has from `first` to `last`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartRange {
+    /// The first part.
+    pub first: DisplayPart,
+    /// The last part.
+    pub last: DisplayPart,
+}
+
+impl PartRange {
+    /// All parts of a display.
+    pub const ALL: Self = Self { first: DisplayPart::Fill, last: DisplayPart::Tone };
+
+    /// A single part.
+    pub const fn only(part: DisplayPart) -> Self {
+        Self { first: part, last: part }
+    }
+
+    /// Whether `part` is among them.
+    pub fn contains(self, part: DisplayPart) -> bool {
+        self.overlaps(Self::only(part))
+    }
+
+    /// Whether any of `others` is among them.
+    pub fn overlaps(self, others: Self) -> bool {
+        self.first <= others.last && others.first <= self.last
+    }
+
+    /// Whether the display is complete with them.
+    pub fn are_last(self) -> bool {
+        self.last == DisplayPart::Tone
+    }
+}
+
+/// Longest expected time of parts that are submitted together, milliseconds.
+const MAX_TOGETHER_MS: f64 = 100.0;
+
+/// The same in trials, milliseconds, whatever the latency. Some browsers report completions late, so that each part alone seems
+/// to take long: trials show how much of that is latency.
+const MAX_IN_TRIAL_MS: f64 = 2.0 * MAX_TOGETHER_MS;
+
+/// The least that remains of an expected time after a measurement: slow fills of coarse lattices alternate with fast ones.
+const LEAST_REMAINING: f64 = 0.5;
+
+/// A submit that has not ended.
+#[derive(Clone, Debug)]
+struct InFlight {
+    /// Its parts, in order.
+    parts: Vec<DisplayPart>,
+    /// Whether the display is of another size than those to come.
+    is_of_old_size: bool,
+}
+
+/// Decides which parts of a display are submitted together, by what they took before.
+#[derive(Clone, Debug, Default)]
+pub struct DisplayDivision {
+    /// Expected time of each part that has been measured, milliseconds.
+    expected_ms: BTreeMap<DisplayPart, f64>,
+    /// Parts of the display under way that have not been submitted, in order.
+    left: Vec<DisplayPart>,
+    /// Number of displays since the one whose parts were not all known. Trials are the first, second, fourth and so on.
+    known_displays: u32,
+    /// The submits that have not ended, in order.
+    in_flight: VecDeque<InFlight>,
+    /// Time of the ended parts of the display under way, milliseconds.
+    ended_ms: f64,
+    /// Time of the shortest submit, milliseconds: no completion is later than that by latency. None before the first one.
+    shortest_ms: Option<f64>,
+}
+
+impl DisplayDivision {
+    /// Forgets what parts took: displays of another size take another time.
+    pub fn forget_times(&mut self) {
+        self.expected_ms.clear();
+        self.shortest_ms = None;
+        self.in_flight.iter_mut().for_each(|submit| submit.is_of_old_size = true);
+    }
+
+    /// Begins a display that has `parts`, in order, of which the last is [`DisplayPart::Tone`]. All parts of the display before
+    /// have been submitted.
+    pub fn begin(&mut self, parts: impl IntoIterator<Item = DisplayPart>) {
+        debug_assert!(self.left.is_empty(), "one display at a time");
+        self.left.extend(parts);
+        let are_known = self.left.iter().all(|part| self.expected_ms.contains_key(part));
+        self.known_displays = if are_known { self.known_displays.wrapping_add(1) } else { 0 };
+    }
+
+    /// Whether parts of a display are left to submit.
+    pub fn has_parts_left(&self) -> bool {
+        !self.left.is_empty()
+    }
+
+    /// The next parts to submit together; none while others are in flight, or if none are left.
+    pub fn next_parts(&mut self) -> Option<PartRange> {
+        if self.in_flight.is_empty() { self.next_parts_without_waiting() } else { None }
+    }
+
+    /// The next parts to submit together, also while others are in flight; none if none are left.
+    pub fn next_parts_without_waiting(&mut self) -> Option<PartRange> {
+        let is_trial = self.known_displays.is_power_of_two();
+        // Of parts that are submitted together all but one may take less than alone, by as much as the latency of a completion.
+        let latency_ms = if is_trial { self.shortest_ms.unwrap_or(0.0) } else { 0.0 };
+        let (mut sum_ms, mut saved_ms) = (0.0, 0.0);
+        let fit = self.left.iter().take_while(|part| {
+            sum_ms += self.expected_ms.get(part).copied().unwrap_or(f64::INFINITY);
+            let fits = sum_ms <= MAX_IN_TRIAL_MS && sum_ms - saved_ms <= MAX_TOGETHER_MS;
+            saved_ms += latency_ms;
+            fits
+        });
+        let count = fit.count().max(1).min(self.left.len());
+        let parts: Vec<_> = self.left.drain(..count).collect();
+        let range = PartRange { first: *parts.first()?, last: *parts.last()? };
+        self.in_flight.push_back(InFlight { parts, is_of_old_size: false });
+        Some(range)
+    }
+
+    /// Learns that the submit of `range`, the first in flight, took `ms`. Returns the time of the whole display if it was the last
+    /// one, milliseconds.
+    pub fn ended(&mut self, range: PartRange, ms: f64) -> Option<f64> {
+        let InFlight { parts, is_of_old_size } = self.in_flight.pop_front()?;
+        debug_assert_eq!((parts.first(), parts.last()), (Some(&range.first), Some(&range.last)));
+        if !is_of_old_size {
+            self.learn(&parts, ms);
+            self.shortest_ms = Some(self.shortest_ms.map_or(ms, |shortest| shortest.min(ms)));
+        }
+        self.ended_ms += ms;
+        range.are_last().then(|| std::mem::take(&mut self.ended_ms))
+    }
+
+    /// Corrects the expected times of `parts`, which took `ms` together. No others: a display without the denoiser says nothing
+    /// of the denoiser's times.
+    fn learn(&mut self, parts: &[DisplayPart], ms: f64) {
+        if let [part] = parts {
+            let expected_ms = self.expected_ms.entry(*part).or_default();
+            *expected_ms = ms.max(LEAST_REMAINING * *expected_ms);
+        } else if ms > MAX_IN_TRIAL_MS {
+            // Which of them took longer than expected is not known: the next display shows it.
+            self.expected_ms.retain(|part, _| !parts.contains(part));
+        } else {
+            let sum_ms: f64 = parts.iter().filter_map(|part| self.expected_ms.get(part)).sum();
+            let factor = (ms / sum_ms.max(1e-3)).max(LEAST_REMAINING);
+            let known = self.expected_ms.iter_mut().filter(|(part, _)| parts.contains(part));
+            known.for_each(|(_, expected_ms)| *expected_ms *= factor);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DisplayPart::*, *};
+
+    /// The parts that a display of parts with these times is submitted in, and what it took in all.
+    fn display(
+        division: &mut DisplayDivision,
+        parts: &[(DisplayPart, f64)],
+    ) -> (Vec<PartRange>, f64) {
+        division.begin(parts.iter().map(|(part, _)| *part));
+        let mut submitted = Vec::new();
+        while let Some(together) = division.next_parts() {
+            assert_eq!(division.next_parts(), None, "one after the other");
+            let ms = parts.iter().filter(|(part, _)| together.contains(*part)).map(|(_, ms)| ms);
+            submitted.push(together);
+            if let Some(total_ms) = division.ended(together, ms.sum()) {
+                assert!(!division.has_parts_left());
+                return (submitted, total_ms);
+            }
+        }
+        panic!("no part was the last of {parts:?}");
+    }
+
+    fn parts(first: DisplayPart, last: DisplayPart) -> PartRange {
+        PartRange { first, last }
+    }
+
+    #[test]
+    fn a_short_display_is_divided_only_until_its_parts_are_known() {
+        let mut division = DisplayDivision::default();
+        let short = [(Fill, 2.0), (Post, 3.0), (Tone, 4.0)];
+        let (submitted, total_ms) = display(&mut division, &short);
+        assert_eq!(submitted, short.map(|(part, _)| PartRange::only(part)));
+        assert_eq!(total_ms, 9.0);
+        assert_eq!(display(&mut division, &short), (vec![PartRange::ALL], 9.0));
+        // A part that was never measured is alone.
+        let denoised = [(Fill, 2.0), (Denoise(0), 50.0), (Tone, 4.0)];
+        let divided =
+            vec![PartRange::only(Fill), PartRange::only(Denoise(0)), PartRange::only(Tone)];
+        assert_eq!(display(&mut division, &denoised).0, divided);
+        assert_eq!(display(&mut division, &denoised).0, [PartRange::ALL]);
+    }
+
+    #[test]
+    fn long_parts_are_alone_and_short_ones_together() {
+        let mut division = DisplayDivision::default();
+        let long = [(Fill, 150.0), (Post, 40.0), (Denoise(0), 50.0), (Tone, 30.0)];
+        assert_eq!(display(&mut division, &long).0.len(), 4);
+        let divided = vec![PartRange::only(Fill), parts(Post, Denoise(0)), PartRange::only(Tone)];
+        // The shortest part takes 30 ms: no part takes less than its time alone without these.
+        let in_trial = vec![PartRange::only(Fill), parts(Post, Tone)];
+        for known_displays in 1..=20_u32 {
+            let expected = if known_displays.is_power_of_two() { &in_trial } else { &divided };
+            assert_eq!(
+                display(&mut division, &long),
+                (expected.clone(), 270.0),
+                "{known_displays}"
+            );
+        }
+        division.forget_times();
+        assert_eq!(display(&mut division, &long).0.len(), 4);
+    }
+
+    #[test]
+    fn late_completions_do_not_leave_a_short_display_divided() {
+        let mut division = DisplayDivision::default();
+        let parts = [Fill, Post, Denoise(0), Denoise(1), Denoise(2), Denoise(3), Denoise(4), Tone];
+        let mut submits = Vec::new();
+        for _ in 0..12 {
+            division.begin(parts);
+            let mut count = 0;
+            while let Some(together) = division.next_parts() {
+                count += 1;
+                // However short they are.
+                division.ended(together, 96.0);
+            }
+            submits.push(count);
+        }
+        assert_eq!(submits[0], 8);
+        assert_eq!(submits[8..], [1; 4], "{submits:?}");
+    }
+
+    #[test]
+    fn a_display_that_takes_longer_than_expected_is_divided_the_next_time() {
+        let mut division = DisplayDivision::default();
+        let mut times = [(Fill, 5.0), (Tone, 10.0)];
+        display(&mut division, &times);
+        assert_eq!(display(&mut division, &times).0.len(), 1);
+        times[1].1 = 300.0;
+        assert_eq!(display(&mut division, &times).0.len(), 1);
+        // Fills of coarse and fine lattices alternate.
+        for fill_ms in [90.0, 10.0, 90.0] {
+            times[0].1 = fill_ms;
+            assert_eq!(display(&mut division, &times).0.len(), 2);
+        }
+    }
+
+    #[test]
+    fn a_display_without_the_denoiser_says_nothing_of_the_denoiser() {
+        let mut division = DisplayDivision::default();
+        let denoised = [(Post, 2.0), (Denoise(0), 90.0), (Denoise(1), 80.0), (Tone, 10.0)];
+        let divided = vec![
+            PartRange::only(Post),
+            PartRange::only(Denoise(0)),
+            PartRange::only(Denoise(1)),
+            PartRange::only(Tone),
+        ];
+        assert_eq!(display(&mut division, &denoised).0, divided);
+        let plain = [(Post, 2.0), (Tone, 10.0)];
+        for _ in 0..6 {
+            assert_eq!(display(&mut division, &plain).0, [parts(Post, Tone)]);
+        }
+        let divided = vec![parts(Post, Denoise(0)), parts(Denoise(1), Tone)];
+        assert_eq!(display(&mut division, &denoised).0, divided);
+    }
+
+    #[test]
+    fn parts_in_flight_at_a_change_of_size_say_nothing_of_the_new_one() {
+        let mut division = DisplayDivision::default();
+        division.begin([Fill, Tone]);
+        assert_eq!(division.next_parts(), Some(PartRange::only(Fill)));
+        assert_eq!(division.next_parts_without_waiting(), Some(PartRange::only(Tone)));
+        division.forget_times();
+        division.begin([Fill, Tone]);
+        assert_eq!(division.ended(PartRange::only(Fill), 1.0), None);
+        assert_eq!(division.next_parts(), None, "the last part is in flight");
+        assert_eq!(division.ended(PartRange::only(Tone), 1.0), Some(2.0));
+        assert_eq!(division.next_parts(), Some(PartRange::only(Fill)), "not known yet");
+    }
+
+    #[test]
+    fn the_rest_of_a_display_does_not_wait_for_what_is_in_flight() {
+        let mut division = DisplayDivision::default();
+        division.begin([Fill, Post, Tone]);
+        assert_eq!(division.next_parts(), Some(PartRange::only(Fill)));
+        assert_eq!(division.next_parts(), None);
+        let rest = [Post, Tone].map(PartRange::only);
+        assert_eq!(
+            [division.next_parts_without_waiting(), division.next_parts_without_waiting()],
+            rest.map(Some)
+        );
+        assert_eq!(division.next_parts_without_waiting(), None);
+        assert_eq!(division.ended(PartRange::only(Fill), 1.0), None);
+        assert_eq!(division.ended(rest[0], 2.0), None);
+        assert_eq!(division.ended(rest[1], 3.0), Some(6.0));
+    }
+}
