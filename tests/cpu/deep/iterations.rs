@@ -40,3 +40,12 @@ fn orbits_that_separate_slowly_have_more() {
     let (by_power, about) = iterations(&scene, 3e-27);
     assert!(about > by_power, "{about} of {by_power}");
 }
+
+/// dr is 1e3 after 25 steps only; points of the surface escape after 40 or 41.
+#[test]
+fn orbits_that_are_slow_from_the_start_have_enough() {
+    let scene = document::from_json(include_str!("../../gpu/hard_views/slow_from_the_start.json"))
+        .expect("a scene");
+    let (by_power, about) = iterations(&scene, 6e-13);
+    assert!(by_power < 40 && about > 41, "{about} of {by_power}");
+}

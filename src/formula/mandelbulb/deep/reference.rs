@@ -189,16 +189,20 @@ impl Reference {
     /// Iterations of a view of `fractal` whose pixels have radius `footprint` at the surface.
     ///
     /// [`iterations_for`] is enough for 99 of 100 points; but all points of a view share most steps with the anchor. If
-    /// the anchor's dr takes more steps to grow from 1 / [`WHOLE_FOOTPRINT`] to 1 / `footprint`, those are added.
+    /// the anchor's dr takes more steps to grow from 1 / [`WHOLE_FOOTPRINT`] to 1 / `footprint`, those are added. If it takes
+    /// more steps than the scene's own to grow to 1 / `WHOLE_FOOTPRINT`, that many count as the scene's own.
     pub fn iterations_for(&self, fractal: &Mandelbulb, footprint: f64) -> u32 {
         let derivatives = self.derivatives(1.0, self.own_points);
         let finest = footprint.clamp(0.1 * FINEST_FOOTPRINT, WHOLE_FOOTPRINT);
         let steps_to = |footprint: f64| {
             let is_enough = |dr: &f64| dr * footprint >= 1.0;
-            derivatives.iter().position(is_enough).unwrap_or(derivatives.len())
+            derivatives.iter().position(is_enough).unwrap_or(derivatives.len()) as u32
         };
-        let more = steps_to(finest) - steps_to(WHOLE_FOOTPRINT);
-        iterations_for(fractal, footprint).max(fractal.iterations + more as u32)
+        let steps_to_whole = steps_to(WHOLE_FOOTPRINT);
+        let more = steps_to(finest) - steps_to_whole;
+        let iterations = fractal.iterations.max(steps_to_whole);
+        let slower = Mandelbulb { iterations, ..fractal.clone() };
+        iterations_for(&slower, footprint).max(iterations + more)
     }
 
     fn series_builder(&self, scale: f64) -> SeriesBuilder<'_> {
