@@ -4,6 +4,7 @@ use mandelight::{formula::mandelbulb::Mandelbulb, gpu::device::in_parallel};
 use mandelight_test_support::{
     deep::{
         arithmetic::{Number, Real},
+        brackets::Verdict,
         orbit::Set,
         random_views::random_view,
         rays::{SetView, centre, pixels},
@@ -86,4 +87,34 @@ fn views_in_f64_are_those_of_more_digits() {
     println!("{coarse_views} views in f64, {} of {hits} rays apart: {apart:?}", apart.len());
     assert!(coarse_views >= 10 && fine_views >= 2, "{coarse_views} and {fine_views} views");
     assert!(hits > 1000 && apart.len() * 1000 <= hits, "{} of {hits} rays: {apart:?}", apart.len());
+}
+
+/// Footprints by which a depth is moved.
+const BESIDE: f64 = 6.0;
+
+/// Depths of a march are right; those in front of the surface are too near, and those behind it too far.
+#[test]
+fn depths_beside_the_surface_are_wrong() {
+    let mut random = Random(0x5EED_BE51);
+    let (mut hits, mut right, mut too_near, mut too_far) = (0, 0, 0, 0);
+    for view in std::iter::repeat_with(|| random_view(&mut random, 1e-10)).flatten().take(VIEWS) {
+        let looking = SetView::exact(&view.scene, SMALL, plenty(&view.scene));
+        let pixels: Vec<_> = pixels(SMALL).step_by(7).collect();
+        let rays = in_parallel(&pixels, |&(pixel, _): &([u32; 2], usize)| {
+            let direction = looking.direction(centre(pixel));
+            let depth = looking.depth(pixel)?;
+            let beside = BESIDE * looking.footprint(depth);
+            Some([0.0, -beside, beside].map(|by| looking.judge(direction, Some(depth + by))))
+        });
+        for [at, before, behind] in rays.into_iter().flatten() {
+            hits += 1;
+            right += usize::from(at == Verdict::Right);
+            too_near += usize::from(before == Verdict::TooNear);
+            too_far += usize::from(behind != Verdict::Right);
+        }
+    }
+    println!("of {hits}: {right} right, {too_near} too near, {too_far} wrong behind");
+    // In front of and behind most other rays, dust or another layer may be near.
+    let are_told = too_near * 4 > hits * 3 && too_far * 3 > hits * 2;
+    assert!(hits > 300 && right == hits && are_told, "{right}, {too_near}, {too_far} of {hits}");
 }

@@ -23,6 +23,8 @@ const FINEST: f64 = 0.01;
 /// Longest such step within a footprint of a depth, in footprints: at the seam of a power that is not whole the estimate
 /// falls from any height to nothing.
 const FOOTPRINT_PART: f64 = 0.125;
+/// Steps of the search for the least estimate about a depth, each of which shrinks the interval to 0.618 of itself.
+const NARROWINGS: u32 = 24;
 /// The hit distances for which a ray must be near for its end to be certain: rays may pass what is thinner than their
 /// least step.
 const THICK: f64 = 0.25;
@@ -55,18 +57,49 @@ impl<N: Number> SetView<'_, N> {
         }
     }
 
-    /// Whether a ray may end within a footprint of a depth. Where directions are stretched far more than the estimate
-    /// knows, it falls from many hit distances to none on a small part of that.
+    /// Whether a ray may end within a footprint of a depth.
     fn is_near(&self, direction: DVec3, depth: f64) -> bool {
         let (footprint, hit) = (self.footprint(depth), self.hit_distance(depth));
         let range = [depth - footprint, depth + footprint];
         let fine = |_, estimate: Estimate| {
             (FINE * estimate.step).min(FOOTPRINT_PART * footprint).max(FINEST * hit)
         };
-        let is_near = |estimate: Estimate| estimate.distance < POSSIBLE * hit;
-        let ask = |_, estimate| is_near(estimate).then_some(());
-        is_near(self.estimate(direction, depth))
-            || matches!(self.look_between(direction, range, fine, ask), Way::Answered(()))
+        let mut least = (self.estimate(direction, depth).distance, depth);
+        let ask = |depth, estimate: Estimate| {
+            if estimate.distance < least.0 {
+                least = (estimate.distance, depth);
+            }
+            (least.0 < POSSIBLE * hit).then_some(())
+        };
+        if let Way::Answered(()) = self.look_between(direction, range, fine, ask) {
+            return true;
+        }
+        let width = FOOTPRINT_PART * footprint;
+        [least.1, depth].iter().any(|at| self.least_about(direction, *at, width) < POSSIBLE * hit)
+    }
+
+    /// The least estimate within `width` of a depth, by a golden-section search.
+    ///
+    /// Where directions are stretched a thousand times as much as the estimate knows, it falls from hundreds of hit distances
+    /// to none and rises again within a hundredth of one: no steps find its least value.
+    fn least_about(&self, direction: DVec3, depth: f64, width: f64) -> f64 {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let at = |depth: f64| self.estimate(direction, depth).distance;
+        let (mut from, mut to) = (depth - width, depth + width);
+        let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
+        let mut found = inner.map(at);
+        for _ in 0..NARROWINGS {
+            if found[0] < found[1] {
+                to = inner[1];
+                inner = [to - GOLDEN * (to - from), inner[0]];
+                found = [at(inner[0]), found[0]];
+            } else {
+                from = inner[0];
+                inner = [inner[1], from + GOLDEN * (to - from)];
+                found = [found[1], at(inner[1])];
+            }
+        }
+        found[0].min(found[1])
     }
 
     /// The distance estimate over the hit distance, at a depth.
