@@ -36,7 +36,7 @@ const RIPPLED: &str = include_str!("hard_views/rippled.json");
 const RIPPLED_BELOW: &str = include_str!("hard_views/rippled_below.json");
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 39] = [
+const HARD: [(&str, Size); 40] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -110,6 +110,8 @@ const HARD: [(&str, Size); 39] = [
     (include_str!("hard_views/long_orbits.json"), [12, 8]),
     // Power 6 at 3e-11: the scene's own iterations end before dr is 1e3, at which a deep view's additional ones begin to count.
     (include_str!("hard_views/slow_from_the_start.json"), SIZE),
+    // Power 6.18 at 1e-4: orbits of a wall end between 1 and the escape radius when the iterations do.
+    (include_str!("hard_views/slow_real.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;

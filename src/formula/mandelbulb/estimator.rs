@@ -5,7 +5,8 @@
 //! The orbit starts at z₀ = p and steps z ← zⁿ + c, where c is the point itself (Mandelbulb) or a
 //! constant (Julia form). A scalar replaces the Jacobian: dr ← n·r^(n−1)·dr + 1, without
 //! the + 1 for the Julia form, whose c does not depend on the point. The estimate is
-//! `½ · ln r · r / dr`. It is zero if the orbit ends with r ≤ 1: inside, or too near to decide.
+//! `½ · ln r · r / dr`. It is zero if the orbit takes all iterations and ends within the bounding radius, as orbits of points
+//! of the set do: inside, or too near to decide.
 //!
 //! dr does not bound the Jacobian: two of the power's singular values are n·r^(n−1), but the third,
 //! along the parallels, is n·|Re wⁿ|/ρ, larger near the polar axis. Steps of the whole estimate pass
@@ -65,6 +66,7 @@ pub struct Estimator {
     step_factor: f64,
     max_step: f64,
     bounding_radius: f64,
+    orbits_radius: f64,
     needs_hit_check: bool,
 }
 
@@ -81,6 +83,7 @@ impl Estimator {
             step_factor: step_factor(fractal),
             max_step: max_step(fractal, bounding_radius),
             bounding_radius,
+            orbits_radius: orbits_radius(fractal, bounding_radius),
             needs_hit_check: fractal.power < HIT_CHECK_BELOW,
         }
     }
@@ -171,7 +174,7 @@ impl Estimator {
 
     /// The estimate at an orbit's end; `careful` is the safe step over `½ · ln r · r`.
     fn estimate_from(&self, r: f64, dr: f64, careful: f64) -> Estimate {
-        if r <= 1.0 {
+        if r <= self.orbits_radius {
             return Estimate { distance: 0.0, step: 0.0 };
         }
         let height = 0.5 * r.ln() * r;
@@ -274,6 +277,14 @@ pub fn step_factor(fractal: &Mandelbulb) -> f64 {
 /// the surface; the Mandelbulb's + 1 prevents this.
 pub fn max_step(fractal: &Mandelbulb, bounding_radius: f64) -> f64 {
     if fractal.julia { 0.05 * bounding_radius } else { f64::INFINITY }
+}
+
+/// Radius about the origin that no orbit of the set's points leaves, in scene units.
+///
+/// An orbit that takes all iterations and ends within it counts as one of the set's: its estimate would be that of any of
+/// the steps before it escapes, hundreds of times too large where orbits are slow.
+pub fn orbits_radius(fractal: &Mandelbulb, bounding_radius: f64) -> f64 {
+    bounding_radius.min(fractal.bailout)
 }
 
 /// Radius about the origin beyond which every orbit escapes, in scene units.

@@ -71,7 +71,7 @@ fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
 // grad dr over dr^2, which keeps the direction.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let walk = walk_orbit(GATHER_GRADIENT, fractal, point, vec3f(0.0));
-    if (walk.q.s <= 1.0) { return vec3f(0.0); }
+    if (is_of_set(fractal, walk.q)) { return vec3f(0.0); }
     return end_gradient(walk);
 }
 
@@ -84,6 +84,11 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         smooth_iterations -= excess / log2(fractal.power);
     }
     return OrbitColors(smooth_iterations, is_inside, 0.0, end_traps(walk));
+}
+
+// Whether an orbit that ends at a point with the squares `q` counts as one of the set's.
+fn is_of_set(fractal: Fractal, q: Squares) -> bool {
+    return q.s <= fractal.orbits_radius_squared;
 }
 
 // 0.5 ln(r) r: the distance estimate times dr.

@@ -194,7 +194,7 @@ fn raised_on_meridian(fractal: Fractal, reference: ReferencePoint, difference: v
 }
 
 fn end_estimate(fractal: Fractal, walk: Walk) -> Estimate {
-    if (walk.q.s <= 1.0) { return Estimate(0.0, 0.0); }
+    if (is_of_set(fractal, walk.q)) { return Estimate(0.0, 0.0); }
     let distance = height_of(walk.q) / max(walk.motion.dr, 1e-37);
     let j = walk.motion.jacobian;
     let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));

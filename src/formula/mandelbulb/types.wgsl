@@ -29,6 +29,8 @@ struct Fractal {
     near_radius_squared: f32,
     // Distance from the anchor beyond which plain f32 resolves points.
     far_radius: f32,
+    // Squared radius that no orbit of the set leaves: one that takes all iterations and ends within it is of the set.
+    orbits_radius_squared: f32,
 }
 
 // Series approximation: second-order polynomials of the point's offset that replace the first steps of

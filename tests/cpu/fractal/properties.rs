@@ -54,6 +54,28 @@ fn every_orbit_from_outside_the_bounding_sphere_escapes() {
     }
 }
 
+/// Orbits of the set may end anywhere in the bounding sphere, after however few steps.
+#[test]
+fn points_of_the_set_have_no_distance_at_any_number_of_iterations() {
+    let mut random = random();
+    let fractals = [bulb(2.0), bulb(3.0), bulb(6.18), bulb(8.0), julia(3.0, [0.1, -0.2, 0.3])];
+    for fractal in fractals {
+        let with = |iterations| Estimator::new(&Mandelbulb { iterations, ..fractal.clone() });
+        let (patient, few) = (with(2000), (2..=24).map(with).collect::<Vec<_>>());
+        let radius = patient.bounding_radius();
+        let mut tried = std::iter::repeat_with(|| random.in_ball(radius)).take(20_000);
+        let inside = tried.by_ref().filter(|point| patient.is_inside(*point)).take(300);
+        let mut count = 0;
+        for point in inside {
+            count += 1;
+            for estimator in &few {
+                assert_eq!(estimator.distance(point), 0.0, "{estimator:?} at {point}");
+            }
+        }
+        assert!(count > 100, "{count} points of {fractal:?}");
+    }
+}
+
 #[test]
 fn the_bounding_sphere_is_no_larger_than_it_need_be() {
     // The bulb's slowest conceivable orbit stands still at Rⁿ⁻¹ = 2.

@@ -6,7 +6,7 @@
 //! whole are of the angles from −π to π, in f64.
 
 use glam::{DMat3, DVec3};
-use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine, estimator};
 
 use super::arithmetic::{Complex, Number, Point, Real, moved, rounded, sum};
 
@@ -24,6 +24,8 @@ pub struct Set<N = Real> {
     power: f64,
     iterations: u32,
     bailout: f64,
+    /// Radius that no orbit of the set leaves.
+    orbits_radius: f64,
     is_mirrored: bool,
     julia_constant: Option<Point<N>>,
 }
@@ -51,6 +53,7 @@ impl<N: Number> Set<N> {
             power: fractal.power,
             iterations,
             bailout: fractal.bailout,
+            orbits_radius: estimator::orbits_radius(fractal, estimator::bounding_radius(fractal)),
             is_mirrored: fractal.sine == Sine::Negative,
             julia_constant: fractal.julia.then(|| fractal.julia_constant.map(N::from_f64)),
         }
@@ -65,7 +68,7 @@ impl<N: Number> Set<N> {
             let past = (r.ln() / self.bailout.ln()).ln();
             smooth_iterations -= past / self.power.ln();
         }
-        if r <= 1.0 {
+        if r <= self.orbits_radius {
             return Estimate { distance: 0.0, step: 0.0, steps, smooth_iterations, traps };
         }
         let height = 0.5 * r.ln() * r;

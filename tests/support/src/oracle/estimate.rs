@@ -5,7 +5,7 @@
 //! derivative of that constant, which is the + 1 of line 10.
 
 use glam::DVec3;
-use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine, estimator::bounding_radius};
 
 /// How an orbit ended.
 pub struct Orbit {
@@ -55,10 +55,11 @@ pub fn orbit(fractal: &Mandelbulb, point: DVec3) -> Orbit {
     Orbit { steps, r, dr, traps, points }
 }
 
-/// Distance estimate: ½ ln r · r / dr, and 0 where ln r < 0 or r = 0.
+/// Distance estimate: ½ ln r · r / dr, and 0 where the orbit has not escaped and ends where those of the set do.
 pub fn distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
     let Orbit { r, dr, .. } = orbit(fractal, point);
-    if r == 0.0 || r.ln() < 0.0 { 0.0 } else { 0.5 * r.ln() * r / dr }
+    let is_of_set = r <= fractal.bailout && r <= bounding_radius(fractal);
+    if is_of_set { 0.0 } else { 0.5 * r.ln() * r / dr }
 }
 
 /// Smooth iteration count: N − ln(ln r / ln b) / ln n for an orbit that passes the bailout b after
