@@ -43,7 +43,7 @@ struct Thesis {
 
 impl Thesis {
     fn distance(&self, point: DVec3) -> f64 {
-        estimate::distance(&self.fractal, point)
+        estimate::printed_distance(&self.fractal, point)
     }
 
     fn march(&self, ray: Ray) -> Option<f64> {

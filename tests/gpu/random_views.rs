@@ -110,7 +110,7 @@ const HARD: [(&str, Size); 40] = [
     (include_str!("hard_views/long_orbits.json"), [12, 8]),
     // Power 6 at 3e-11: the scene's own iterations end before dr is 1e3, at which a deep view's additional ones begin to count.
     (include_str!("hard_views/slow_from_the_start.json"), SIZE),
-    // Power 6.18 at 1e-4: orbits of a wall end between 1 and the escape radius when the iterations do.
+    // Power 6.18 at 1e-4: orbits of a wall take all iterations and end between 1 and the escape radius.
     (include_str!("hard_views/slow_real.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.

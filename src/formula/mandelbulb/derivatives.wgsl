@@ -163,8 +163,8 @@ fn gathered(
 
 // The estimate at an orbit's end.
 fn estimate_at(fractal: Fractal, derivatives: Derivatives, q: Squares) -> Estimate {
-    if (is_of_set(fractal, q)) { return Estimate(0.0, 0.0); }
-    let height = height_of(q);
+    let height = height_of(fractal, q);
+    if (height <= 0.0) { return Estimate(0.0, 0.0); }
     let distance = height / max(derivatives.dr, 1e-37);
     return Estimate(distance, min(safe_step(derivatives, height), fractal.max_step));
 }

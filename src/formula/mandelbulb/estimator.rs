@@ -5,8 +5,9 @@
 //! The orbit starts at z₀ = p and steps z ← zⁿ + c, where c is the point itself (Mandelbulb) or a
 //! constant (Julia form). A scalar replaces the Jacobian: dr ← n·r^(n−1)·dr + 1, without
 //! the + 1 for the Julia form, whose c does not depend on the point. The estimate is
-//! `½ · ln r · r / dr`. It is zero if the orbit takes all iterations and ends within the bounding radius, as orbits of points
-//! of the set do: inside, or too near to decide.
+//! `½ · ln r · r / dr` for an orbit that passes the bailout. Another orbit takes all iterations, and its estimate is
+//! `½ · ln(r/R) · r / dr` with the [escape radius](escape_radius) R, or zero within R, where orbits of the set's points stay:
+//! inside, or too near to decide.
 //!
 //! dr does not bound the Jacobian: two of the power's singular values are n·r^(n−1), but the third,
 //! along the parallels, is n·|Re wⁿ|/ρ, larger near the polar axis. Steps of the whole estimate pass
@@ -66,7 +67,7 @@ pub struct Estimator {
     step_factor: f64,
     max_step: f64,
     bounding_radius: f64,
-    orbits_radius: f64,
+    log_escape_radius: f64,
     needs_hit_check: bool,
 }
 
@@ -83,7 +84,7 @@ impl Estimator {
             step_factor: step_factor(fractal),
             max_step: max_step(fractal, bounding_radius),
             bounding_radius,
-            orbits_radius: orbits_radius(fractal, bounding_radius),
+            log_escape_radius: escape_radius(fractal).ln(),
             needs_hit_check: fractal.power < HIT_CHECK_BELOW,
         }
     }
@@ -174,10 +175,11 @@ impl Estimator {
 
     /// The estimate at an orbit's end; `careful` is the safe step over `½ · ln r · r`.
     fn estimate_from(&self, r: f64, dr: f64, careful: f64) -> Estimate {
-        if r <= self.orbits_radius {
+        let log_radius = if r > self.bailout { r.ln() } else { r.ln() - self.log_escape_radius };
+        if log_radius <= 0.0 {
             return Estimate { distance: 0.0, step: 0.0 };
         }
-        let height = 0.5 * r.ln() * r;
+        let height = 0.5 * log_radius * r;
         let distance = height / dr.max(MIN_DERIVATIVE);
         Estimate { distance, step: (careful * height).min(distance).min(self.max_step) }
     }
@@ -279,12 +281,17 @@ pub fn max_step(fractal: &Mandelbulb, bounding_radius: f64) -> f64 {
     if fractal.julia { 0.05 * bounding_radius } else { f64::INFINITY }
 }
 
-/// Radius about the origin that no orbit of the set's points leaves, in scene units.
+/// The radius R from which orbits of the set's points would grow for ever, in scene units; they never leave it.
 ///
-/// An orbit that takes all iterations and ends within it counts as one of the set's: its estimate would be that of any of
-/// the steps before it escapes, hundreds of times too large where orbits are slow.
-pub fn orbits_radius(fractal: &Mandelbulb, bounding_radius: f64) -> f64 {
-    bounding_radius.min(fractal.bailout)
+/// By the triangle inequality an orbit point farther out grows: Rⁿ − |c| = R, where |c| is at most R for the Mandelbulb.
+pub fn escape_radius(fractal: &Mandelbulb) -> f64 {
+    let Mandelbulb { power, julia_constant, .. } = *fractal;
+    if !fractal.julia {
+        return 2.0_f64.powf(1.0 / (power - 1.0));
+    }
+    let constant = DVec3::from_array(julia_constant).length();
+    // R = (R + |c|)^(1/n), which converges from anywhere above 1.
+    (0..64).fold(1.0 + constant, |radius, _| (radius + constant).powf(1.0 / power))
 }
 
 /// Radius about the origin beyond which every orbit escapes, in scene units.

@@ -71,8 +71,8 @@ fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
 // grad dr over dr^2, which keeps the direction.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let walk = walk_orbit(GATHER_GRADIENT, fractal, point, vec3f(0.0));
-    if (is_of_set(fractal, walk.q)) { return vec3f(0.0); }
-    return end_gradient(walk);
+    if (log_radius(fractal, walk.q) <= 0.0) { return vec3f(0.0); }
+    return end_gradient(fractal, walk);
 }
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
@@ -86,19 +86,21 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     return OrbitColors(smooth_iterations, is_inside, 0.0, end_traps(walk));
 }
 
-// Whether an orbit that ends at a point with the squares `q` counts as one of the set's.
-fn is_of_set(fractal: Fractal, q: Squares) -> bool {
-    return q.s <= fractal.orbits_radius_squared;
+// ln r at an orbit's end, or ln(r/R) with the escape radius R if the iterations have ended before the orbit passes the
+// bailout. Not positive: the orbit may be one of the set's, which never leave R.
+fn log_radius(fractal: Fractal, q: Squares) -> f32 {
+    let has_passed = q.s > fractal.bailout * fractal.bailout;
+    return 0.5 * log(max(q.s, 1e-36)) - select(fractal.log_escape_radius, 0.0, has_passed);
 }
 
-// 0.5 ln(r) r: the distance estimate times dr.
-fn height_of(q: Squares) -> f32 {
-    return 0.25 * log(q.s) * sqrt(q.s);
+// 0.5 ln(r) r, with `log_radius` for ln(r): the distance estimate times dr.
+fn height_of(fractal: Fractal, q: Squares) -> f32 {
+    return 0.5 * log_radius(fractal, q) * sqrt(q.s);
 }
 
 // The gradient at an orbit's end, from its Jacobian over dr and the gradient of dr over dr^2.
-fn gradient_at(z: vec3f, q: Squares, jacobian: mat3x3f, slope: vec3f) -> vec3f {
+fn gradient_at(fractal: Fractal, z: vec3f, q: Squares, jacobian: mat3x3f, slope: vec3f) -> vec3f {
     let r = sqrt(q.s);
-    let log_r = log(r);
+    let log_r = log_radius(fractal, q);
     return (log_r + 1.0) / r * (z * jacobian) - r * log_r * slope;
 }

@@ -67,8 +67,8 @@ fn end_estimate(fractal: Fractal, walk: Walk) -> Estimate {
     return estimate_at(fractal, walk.gathered.derivatives, walk.q);
 }
 
-fn end_gradient(walk: Walk) -> vec3f {
-    return gradient_at(walk.state.z, walk.q, walk.gathered.tangent.jacobian, walk.gathered.tangent.slope);
+fn end_gradient(fractal: Fractal, walk: Walk) -> vec3f {
+    return gradient_at(fractal, walk.state.z, walk.q, walk.gathered.tangent.jacobian, walk.gathered.tangent.slope);
 }
 
 fn end_traps(walk: Walk) -> vec2f {

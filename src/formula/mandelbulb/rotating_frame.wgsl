@@ -194,15 +194,16 @@ fn raised_on_meridian(fractal: Fractal, reference: ReferencePoint, difference: v
 }
 
 fn end_estimate(fractal: Fractal, walk: Walk) -> Estimate {
-    if (is_of_set(fractal, walk.q)) { return Estimate(0.0, 0.0); }
-    let distance = height_of(walk.q) / max(walk.motion.dr, 1e-37);
+    let height = height_of(fractal, walk.q);
+    if (height <= 0.0) { return Estimate(0.0, 0.0); }
+    let distance = height / max(walk.motion.dr, 1e-37);
     let j = walk.motion.jacobian;
     let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
     return Estimate(distance, min(distance / max(norm, 1.0), fractal.max_step));
 }
 
-fn end_gradient(walk: Walk) -> vec3f {
-    return gradient_at(walk.state.z, walk.q, walk.motion.jacobian, walk.motion.slope);
+fn end_gradient(fractal: Fractal, walk: Walk) -> vec3f {
+    return gradient_at(fractal, walk.state.z, walk.q, walk.motion.jacobian, walk.motion.slope);
 }
 
 fn end_traps(walk: Walk) -> vec2f {

@@ -4,7 +4,7 @@ struct Fractal {
     julia_constant: vec3f,
     power: f32,
     iterations: u32,
-    // Escape radius, scene units.
+    // Radius beyond which an orbit is not followed, scene units.
     bailout: f32,
     // 1 for the Julia form.
     julia: u32,
@@ -29,8 +29,8 @@ struct Fractal {
     near_radius_squared: f32,
     // Distance from the anchor beyond which plain f32 resolves points.
     far_radius: f32,
-    // Squared radius that no orbit of the set leaves: one that takes all iterations and ends within it is of the set.
-    orbits_radius_squared: f32,
+    // Natural logarithm of the radius from which orbits grow for certain.
+    log_escape_radius: f32,
 }
 
 // Series approximation: second-order polynomials of the point's offset that replace the first steps of

@@ -39,7 +39,7 @@ host_shared! {
         power: f32,
         /// Most orbit steps.
         iterations: u32,
-        /// Escape radius, scene units.
+        /// Radius beyond which an orbit is not followed, scene units.
         bailout: f32,
         /// 1 for the Julia form.
         julia: u32,
@@ -67,8 +67,8 @@ host_shared! {
         near_radius_squared: f32,
         /// Distance from the anchor, in scales, beyond which plain f32 resolves points.
         far_radius: f32,
-        /// Squared radius that no orbit of the set leaves: [`estimator::orbits_radius`].
-        orbits_radius_squared: f32,
+        /// Natural logarithm of [`estimator::escape_radius`].
+        log_escape_radius: f32,
     }
     /// Replaces the first steps of all orbits near the anchor: see [`super::deep::series`].
     SeriesApproximation {
@@ -220,7 +220,7 @@ fn fractal(set: &Mandelbulb, view: &PackedFor<'_>, reference: Option<&Reference>
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         near_radius_squared: 0.0,
         far_radius: f32::MAX,
-        orbits_radius_squared: estimator::orbits_radius(set, view.bounding_radius).powi(2) as f32,
+        log_escape_radius: estimator::escape_radius(set).ln() as f32,
     }
 }
 

@@ -90,31 +90,31 @@ fn views_in_f64_are_those_of_more_digits() {
 }
 
 /// Footprints by which a depth is moved.
-const BESIDE: f64 = 6.0;
+const OFFSET: f64 = 6.0;
 
-/// Depths of a march are right; those in front of the surface are too near, and those behind it too far.
+/// Depths of a march are right. Most of those in front of the surface are too near, and most of those behind it wrong.
 #[test]
-fn depths_beside_the_surface_are_wrong() {
+fn most_depths_in_front_of_and_behind_the_surface_are_wrong() {
     let mut random = Random(0x5EED_BE51);
-    let (mut hits, mut right, mut too_near, mut too_far) = (0, 0, 0, 0);
+    let (mut hits, mut right, mut too_near, mut wrong_behind) = (0, 0, 0, 0);
     for view in std::iter::repeat_with(|| random_view(&mut random, 1e-10)).flatten().take(VIEWS) {
         let looking = SetView::exact(&view.scene, SMALL, plenty(&view.scene));
         let pixels: Vec<_> = pixels(SMALL).step_by(7).collect();
         let rays = in_parallel(&pixels, |&(pixel, _): &([u32; 2], usize)| {
             let direction = looking.direction(centre(pixel));
             let depth = looking.depth(pixel)?;
-            let beside = BESIDE * looking.footprint(depth);
-            Some([0.0, -beside, beside].map(|by| looking.judge(direction, Some(depth + by))))
+            let offset = OFFSET * looking.footprint(depth);
+            Some([0.0, -offset, offset].map(|by| looking.judge(direction, Some(depth + by))))
         });
         for [at, before, behind] in rays.into_iter().flatten() {
             hits += 1;
             right += usize::from(at == Verdict::Right);
             too_near += usize::from(before == Verdict::TooNear);
-            too_far += usize::from(behind != Verdict::Right);
+            wrong_behind += usize::from(behind != Verdict::Right);
         }
     }
-    println!("of {hits}: {right} right, {too_near} too near, {too_far} wrong behind");
+    println!("of {hits}: {right} right, {too_near} too near, {wrong_behind} wrong behind");
     // In front of and behind most other rays, dust or another layer may be near.
-    let are_told = too_near * 4 > hits * 3 && too_far * 3 > hits * 2;
-    assert!(hits > 300 && right == hits && are_told, "{right}, {too_near}, {too_far} of {hits}");
+    assert!(hits > 300 && right == hits, "{right} of {hits}");
+    assert!(too_near * 4 > hits * 3 && wrong_behind * 3 > hits * 2, "{too_near}, {wrong_behind}");
 }

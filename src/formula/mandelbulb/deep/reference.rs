@@ -196,11 +196,14 @@ impl Reference {
         let finest = footprint.clamp(0.1 * FINEST_FOOTPRINT, WHOLE_FOOTPRINT);
         let steps_to = |footprint: f64| {
             let is_enough = |dr: &f64| dr * footprint >= 1.0;
-            derivatives.iter().position(is_enough).unwrap_or(derivatives.len()) as u32
+            derivatives.iter().position(is_enough)
         };
-        let steps_to_whole = steps_to(WHOLE_FOOTPRINT);
-        let more = steps_to(finest) - steps_to_whole;
-        let iterations = fractal.iterations.max(steps_to_whole);
+        // An orbit that never gets there says nothing of how many steps others take.
+        let Some(steps_to_whole) = steps_to(WHOLE_FOOTPRINT) else {
+            return iterations_for(fractal, footprint);
+        };
+        let more = (steps_to(finest).unwrap_or(derivatives.len()) - steps_to_whole) as u32;
+        let iterations = fractal.iterations.max(steps_to_whole as u32);
         let slower = Mandelbulb { iterations, ..fractal.clone() };
         iterations_for(&slower, footprint).max(iterations + more)
     }

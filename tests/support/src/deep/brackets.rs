@@ -23,8 +23,8 @@ const FINEST: f64 = 0.01;
 /// Longest such step within a footprint of a depth, in footprints: at the seam of a power that is not whole the estimate
 /// falls from any height to nothing.
 const FOOTPRINT_PART: f64 = 0.125;
-/// Steps of the search for the least estimate about a depth, each of which shrinks the interval to 0.618 of itself.
-const NARROWINGS: u32 = 24;
+/// Steps of the golden-section search, each of which shrinks the interval to 0.618 of itself.
+const GOLDEN_SECTION_STEPS: u32 = 24;
 /// The hit distances for which a ray must be near for its end to be certain: rays may pass what is thinner than their
 /// least step.
 const THICK: f64 = 0.25;
@@ -74,21 +74,24 @@ impl<N: Number> SetView<'_, N> {
         if let Way::Answered(()) = self.look_between(direction, range, fine, ask) {
             return true;
         }
+        // At lower powers rays do not end at hairs: a hit has to last.
+        let ends_at_hairs = Mandelbulb::of(self.fractal()).power >= 4.0;
         let width = FOOTPRINT_PART * footprint;
-        [least.1, depth].iter().any(|at| self.least_about(direction, *at, width) < POSSIBLE * hit)
+        let is_at_hair = |at: f64| self.least_about(direction, at, width) < POSSIBLE * hit;
+        ends_at_hairs && (is_at_hair(least.1) || (least.1 != depth && is_at_hair(depth)))
     }
 
     /// The least estimate within `width` of a depth, by a golden-section search.
     ///
-    /// Where directions are stretched a thousand times as much as the estimate knows, it falls from hundreds of hit distances
-    /// to none and rises again within a hundredth of one: no steps find its least value.
+    /// Where an orbit stretches a direction a thousand times as much as its dr says, the estimate falls from hundreds of hit
+    /// distances to 0 and rises again within a hundredth of one, beside a hair. Steps miss that minimum.
     fn least_about(&self, direction: DVec3, depth: f64, width: f64) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let at = |depth: f64| self.estimate(direction, depth).distance;
         let (mut from, mut to) = (depth - width, depth + width);
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut found = inner.map(at);
-        for _ in 0..NARROWINGS {
+        for _ in 0..GOLDEN_SECTION_STEPS {
             if found[0] < found[1] {
                 to = inner[1];
                 inner = [to - GOLDEN * (to - from), inner[0]];

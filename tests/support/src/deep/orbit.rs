@@ -6,9 +6,10 @@
 //! whole are of the angles from −π to π, in f64.
 
 use glam::{DMat3, DVec3};
-use mandelight::formula::mandelbulb::{Mandelbulb, Sine, estimator};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 
 use super::arithmetic::{Complex, Number, Point, Real, moved, rounded, sum};
+use crate::oracle::estimate::escape_radius;
 
 /// Part of the estimate by the derivative's norm that a step covers.
 const STEP_PART: f64 = 0.5;
@@ -24,8 +25,7 @@ pub struct Set<N = Real> {
     power: f64,
     iterations: u32,
     bailout: f64,
-    /// Radius that no orbit of the set leaves.
-    orbits_radius: f64,
+    escape_radius: f64,
     is_mirrored: bool,
     julia_constant: Option<Point<N>>,
 }
@@ -53,7 +53,7 @@ impl<N: Number> Set<N> {
             power: fractal.power,
             iterations,
             bailout: fractal.bailout,
-            orbits_radius: estimator::orbits_radius(fractal, estimator::bounding_radius(fractal)),
+            escape_radius: escape_radius(fractal),
             is_mirrored: fractal.sine == Sine::Negative,
             julia_constant: fractal.julia.then(|| fractal.julia_constant.map(N::from_f64)),
         }
@@ -68,10 +68,11 @@ impl<N: Number> Set<N> {
             let past = (r.ln() / self.bailout.ln()).ln();
             smooth_iterations -= past / self.power.ln();
         }
-        if r <= self.orbits_radius {
+        let log_radius = if r > self.bailout { r.ln() } else { (r / self.escape_radius).ln() };
+        if log_radius <= 0.0 {
             return Estimate { distance: 0.0, step: 0.0, steps, smooth_iterations, traps };
         }
-        let height = 0.5 * r.ln() * r;
+        let height = 0.5 * log_radius * r;
         let distance = height / dr;
         let norm = norm(jacobian.derivative).min(norm(jacobian.unturned));
         let step = (STEP_PART * height / norm).min(distance);

@@ -1,11 +1,11 @@
-//! Oracle: Algorithm 1 as it is printed, in f64, with asin, atan2, sin and cos.
+//! Oracle: Algorithm 1, as it is printed but for orbits that do not pass the bailout, in f64, with asin, atan2, sin and cos.
 //!
 //! The line for z.y, missing in print, is restored by symmetry with z.x. Equation 2.3's −sin φ
 //! is the negative variant. The Julia form starts at the point, adds the constant, and drops the
 //! derivative of that constant, which is the + 1 of line 10.
 
 use glam::DVec3;
-use mandelight::formula::mandelbulb::{Mandelbulb, Sine, estimator::bounding_radius};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 
 /// How an orbit ended.
 pub struct Orbit {
@@ -55,11 +55,30 @@ pub fn orbit(fractal: &Mandelbulb, point: DVec3) -> Orbit {
     Orbit { steps, r, dr, traps, points }
 }
 
-/// Distance estimate: ½ ln r · r / dr, and 0 where the orbit has not escaped and ends where those of the set do.
+/// Distance estimate as it is printed: ½ ln r · r / dr, and 0 where ln r < 0 or r = 0.
+pub fn printed_distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
+    let Orbit { r, dr, .. } = orbit(fractal, point);
+    if r == 0.0 || r.ln() < 0.0 { 0.0 } else { 0.5 * r.ln() * r / dr }
+}
+
+/// Distance estimate: as printed for an orbit that passes the bailout. For another, r is counted in escape radii, and the
+/// estimate is 0 within one.
 pub fn distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
     let Orbit { r, dr, .. } = orbit(fractal, point);
-    let is_of_set = r <= fractal.bailout && r <= bounding_radius(fractal);
-    if is_of_set { 0.0 } else { 0.5 * r.ln() * r / dr }
+    let log = if r > fractal.bailout { r.ln() } else { (r / escape_radius(fractal)).ln() };
+    if log <= 0.0 { 0.0 } else { 0.5 * log * r / dr }
+}
+
+/// The radius R from which |z|ⁿ − |c| is greater than |z|, so that orbits grow; |c| is at most R for the Mandelbulb.
+pub fn escape_radius(fractal: &Mandelbulb) -> f64 {
+    let added = DVec3::from_array(fractal.julia_constant).length();
+    let grows = |r: f64| r.powf(fractal.power) - if fractal.julia { added } else { r } > r;
+    let (mut below, mut above) = (1.0, 8.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (below + above);
+        *(if grows(middle) { &mut above } else { &mut below }) = middle;
+    }
+    above
 }
 
 /// Smooth iteration count: N − ln(ln r / ln b) / ln n for an orbit that passes the bailout b after
