@@ -102,9 +102,11 @@ fn a_dive_goes_down_to_the_end_by_itself() {
     let record = guide.record();
     assert!(record.len() > 50, "{} cameras", record.len());
     assert_eq!(record[0].1, scene.camera);
-    for pair in record.windows(2).skip(1) {
+    for (index, pair) in record.windows(2).enumerate().skip(1) {
         let zoomed = (pair[0].1.view_unit() / pair[1].1.view_unit()).ln();
-        assert!(pair[1].0 > pair[0].0 && (0.9..2.0).contains(&zoomed), "{zoomed}");
+        // The last camera is where the dive ends, which may be less than a step from the one before.
+        let least = if index + 2 == record.len() { 0.01 } else { 1.0 };
+        assert!(pair[1].0 > pair[0].0 && (least..2.0).contains(&zoomed), "{zoomed}");
     }
 }
 
