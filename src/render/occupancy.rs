@@ -28,6 +28,11 @@ impl Occupancy {
         Self { cpu: cpu.map(occupied) }
     }
 
+    /// Whether the adapter is a processor.
+    pub fn is_cpu(self) -> bool {
+        self.cpu.is_some()
+    }
+
     /// Blocks that pieces of work are multiples of: others leave cores, or threads of a GPU's workgroups, idle.
     pub fn unit_blocks(self) -> u32 {
         self.cpu.map_or(WORKGROUP_BLOCKS, |cpu| cpu.cores)

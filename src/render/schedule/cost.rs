@@ -29,7 +29,8 @@ const PLANNED: f64 = 0.9;
 /// Least part of a budget for the lattice's samples, whatever display and latency take.
 const MIN_FOR_SAMPLES: f64 = 0.25;
 
-/// Cost of a ray by a general pipeline, in rays by specialized ones, until measured.
+/// Cost of a ray by a general pipeline, in rays by specialized ones, until measured. Rays by specialized ones count as those by
+/// others until measured: how much less they cost depends on the view and the adapter.
 const UNSPECIALIZED: f64 = 4.0;
 
 /// Cost of a path, in rays, until measured.
@@ -133,8 +134,19 @@ impl Cost {
     ) {
         if samples > 0.0 {
             let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
+            if phase == Phase::Jump && kind == WorkKind::Tracing {
+                self.forget_rays_but_by(arithmetic);
+            }
             let history = &mut self.histories[history_index(kind, arithmetic)];
             history.learn(phase, samples * rays_of_sample, busy_ms.max(1e-3));
+        }
+    }
+
+    /// Forgets what rays cost by other arithmetics: that was in other views. Where pipelines are compiled while the view refines,
+    /// pieces of theirs are sized by what its rays cost by `kept`.
+    fn forget_rays_but_by(&mut self, kept: Arithmetic) {
+        for arithmetic in ARITHMETICS.into_iter().filter(|&arithmetic| arithmetic != kept) {
+            self.histories[history_index(WorkKind::Tracing, arithmetic)] = CostHistory::default();
         }
     }
 
@@ -172,10 +184,9 @@ impl Cost {
     /// The rate of a kind by the present arithmetic, or by one that was measured.
     fn rate(&self, phase: Phase, kind: WorkKind) -> Rate {
         let of_other = |&other: &Arithmetic| {
-            let factor =
-                |of| if of == Arithmetic::SpecializedPipeline { 1.0 } else { UNSPECIALIZED };
             let rate = self.rate_by(other, phase, kind)?;
-            Some(rate.scaled(factor(self.arithmetic) / factor(other)))
+            let is_of_special = other == Arithmetic::SpecializedPipeline;
+            Some(rate.scaled(if is_of_special { UNSPECIALIZED } else { 1.0 }))
         };
         self.rate_by(self.arithmetic, phase, kind)
             .or_else(|| ARITHMETICS.iter().find_map(of_other))
@@ -220,6 +231,19 @@ impl Cost {
         (rays / rays_of_block).min(1e9) as u32
     }
 
+    /// The rate of the openings that were tried with this kind of work, or if it is new, with any rays; none where refining pieces
+    /// alone say what it costs.
+    fn tried_opening(&self, kind: WorkKind) -> Option<Rate> {
+        let own = &self.histories[history_index(kind, self.arithmetic)];
+        let of_rays = |&arithmetic: &Arithmetic| {
+            self.histories[history_index(WorkKind::Tracing, arithmetic)].opening()
+        };
+        match own.rate(Phase::Refining) {
+            Some(_) => own.opening(),
+            None => ARITHMETICS.iter().find_map(of_rays),
+        }
+    }
+
     /// Whether an opening fits a budget, with its display and the work in flight.
     ///
     /// `has_indirect`: the opening's indirect light has to fit too.
@@ -243,7 +267,7 @@ impl Cost {
         let left_ms = PLANNED * budget_ms - in_flight_ms - self.display_ms - fixed_ms;
         let samples = f64::from(samples);
         // The cost of few rays says little of the cost of many.
-        let tried = self.histories[history_index(kind, self.arithmetic)].opening();
+        let tried = self.tried_opening(kind);
         let is_near = tried.is_none_or(|rate| samples * rays_of_sample <= rate.max_rays);
         is_near && samples * sample_ms <= left_ms.max(MIN_FOR_SAMPLES * budget_ms)
     }

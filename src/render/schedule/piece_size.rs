@@ -70,13 +70,15 @@ impl PieceSizes {
         }
     }
 
-    /// The size of the next piece of the coarsest lattice of another view, of which `begun` blocks are submitted and `left`
-    /// are not: the first piece is small, and pieces double until one holds all that is left.
+    /// The size of the next piece of the first lattice of another view, of which `begun` blocks are submitted and `left`
+    /// are not: the first piece is small, and pieces double until one holds all that is left, or takes a piece's time.
     ///
-    /// With many lights the whole lattice is thousands of rays, whose cost is not known before the first ones end.
-    pub fn of_jump(&self, cost: &Cost, job: Job, begun: u32, left: u32) -> PieceSize {
-        let blocks =
-            cost.first_blocks(job).max(1).next_multiple_of(self.occupancy.unit_blocks()).max(begun);
+    /// The whole lattice may be thousands of rays, whose cost is not known before the first ones end.
+    pub fn of_jump(&self, aim_ms: f64, cost: &Cost, job: Job, begun: u32, left: u32) -> PieceSize {
+        let unit = self.occupancy.unit_blocks();
+        let whole_units = |blocks: u32| (blocks - blocks % unit).max(unit);
+        let blocks = cost.first_blocks(job).max(1).next_multiple_of(unit).max(begun);
+        let blocks = blocks.min(whole_units(cost.piece_blocks(aim_ms, job)));
         let is_last = left < 2 * blocks;
         let blocks = if is_last { left } else { blocks };
         PieceSize { blocks: blocks.min(MAX_PIECE_BLOCKS), divisor: 1 }

@@ -42,8 +42,10 @@ impl Schedule {
         let kept = self.progress.kept_pixels(points);
         let left = points.grid(self.progress.size_px).blocks() - first_block;
         let size = match self.phase() {
-            Phase::Jump if points.level() == COARSEST => {
-                self.piece_sizes.of_jump(&self.cost, job, first_block, left)
+            // A GPU computes any lattice that was expected to fit the budget at once.
+            Phase::Jump if points.level() == COARSEST || self.piece_sizes.occupancy.is_cpu() => {
+                let aim_ms = self.budget_ms.min(piece_size::PIECE_MS);
+                self.piece_sizes.of_jump(aim_ms, &self.cost, job, first_block, left)
             }
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.

@@ -1,15 +1,27 @@
 //! Jumps to views that cost many times what the one before cost.
 
 use super::*;
-use crate::render::lattice::BLOCK_THREADS;
+use crate::gpu::Cpu;
+use crate::render::{lattice::BLOCK_THREADS, occupancy::Occupancy};
 
 /// Times of the traces from a jump until the picture rests, milliseconds: the other view's opening costs
 /// `of_opening` times as much as before, the rest of it `of_rest` times.
 ///
 /// A movement and a rest come before it, so that openings and pieces are as large as the budget allows.
-fn traces(slowness: f64, budget_ms: f64, [of_opening, of_rest]: [f64; 2]) -> Vec<f64> {
+fn traces(slowness: f64, budget_ms: f64, factors: [f64; 2]) -> Vec<f64> {
+    traces_on(Occupancy::default(), slowness, budget_ms, factors)
+}
+
+/// [`traces`] on an adapter of `occupancy`.
+fn traces_on(
+    occupancy: Occupancy,
+    slowness: f64,
+    budget_ms: f64,
+    [of_opening, of_rest]: [f64; 2],
+) -> Vec<f64> {
     let mut device = Device::new(slowness, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.set_occupancy(occupancy);
     schedule.aim(budget_ms, 64);
     let mut now = 0.0;
     let mut pictures = 0;
@@ -129,5 +141,51 @@ fn shading_of_another_view_starts_with_small_pieces() {
             settle(&mut schedule, &mut device, &mut now);
         }
         assert!(device.longest_ms < 250.0, "{shade}: {} ms", device.longest_ms);
+    }
+}
+
+/// While a view refines by general pipelines, special ones are compiled that were used in a much cheaper view.
+#[test]
+fn pipelines_of_a_cheap_view_are_sized_by_what_the_present_one_costs() {
+    let (mut device, mut now) = (Device::new(1.0, 0.0), 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(200.0, 1);
+    schedule.set_arithmetic(Arithmetic::SpecializedPipeline);
+    for _ in 0..3 {
+        schedule.change(Stale::Geometry, false, now);
+        settle(&mut schedule, &mut device, &mut now);
+    }
+    device.pixel_ns *= 100.0;
+    schedule.set_arithmetic(Arithmetic::Real);
+    schedule.change(Stale::Geometry, false, now);
+    let mut pieces = 0;
+    while !schedule.status(now).idle {
+        device.collect(&mut schedule, now);
+        while let Some(work) = schedule.next(now) {
+            if schedule.status(now).shown && matches!(work, Work::Trace(_)) {
+                pieces += 1;
+                if pieces == 6 {
+                    schedule.set_arithmetic(Arithmetic::SpecializedPipeline);
+                    device.longest_ms = 0.0;
+                }
+            }
+            device.submit(work, now);
+        }
+        now += FRAME_SECS;
+    }
+    println!("{pieces} pieces, the longest {:.0} ms", device.longest_ms);
+    assert!(pieces > 6 && device.longest_ms < 2.0 * PIECE_MS, "{} ms", device.longest_ms);
+}
+
+/// Where a processor draws the picture, a lattice that was expected to fit the budget does not come at once.
+#[test]
+fn a_processor_opens_another_view_in_pieces() {
+    for slowness in [5.0, 20.0] {
+        let [undivided, divided] = [None, Some(Cpu { cores: 2, lanes: 4 })].map(|cpu| {
+            let times = traces_on(Occupancy::of(cpu), slowness, 16.0, [20.0; 2]);
+            (count_above(&times, 32.0), times.into_iter().fold(0.0, f64::max))
+        });
+        println!("slowness {slowness}: {undivided:?}, in pieces {divided:?}");
+        assert!(divided.0 == 0 && undivided.1 > 100.0, "{undivided:?}, {divided:?}");
     }
 }
