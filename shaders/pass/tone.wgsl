@@ -40,12 +40,17 @@ fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
 fn reconstructed(pixel: vec2u) -> vec3f {
     if (dispatch.denoised != 0u) { return shared_exponent_unpack(denoised[pixel_index(pixel)]); }
     let own = film_mean(pixel_index(pixel));
-    if (!is_sparse()) { return own; }
-    let left = film_beside(pixel, vec2i(-1, 0));
-    let right = film_beside(pixel, vec2i(1, 0));
-    let above = film_beside(pixel, vec2i(0, -1));
-    let below = film_beside(pixel, vec2i(0, 1));
-    return clamp(own, min(min(left, right), min(above, below)), max(max(left, right), max(above, below)));
+    var low = vec3f(3e38);
+    var high = vec3f(-3e38);
+    // Loops, because a software GPU computes both sides of a branch.
+    let sides = select(0u, 4u, is_sparse());
+    for (var side = 0u; side < sides; side++) {
+        let toward = 1 - 2 * i32(side & 1u);
+        let beside = film_beside(pixel, select(vec2i(toward, 0), vec2i(0, toward), side > 1u));
+        low = min(low, beside);
+        high = max(high, beside);
+    }
+    return select(own, clamp(own, low, high), is_sparse());
 }
 
 fn mip_element(width: u32, cell: vec2u) -> vec3f {
@@ -110,11 +115,13 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     read_frame();
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
-    var encoded = shown(pixel);
-    if (is_anaglyph()) {
-        if (is_second_eye(pixel)) { return; }
+    if (is_anaglyph() && is_second_eye(pixel)) { return; }
+    var encoded = vec3f(0.0);
+    let eyes = select(1u, 2u, is_anaglyph());
+    for (var eye = 0u; eye < eyes; eye++) {
+        let color = shown(pixel + eye * frame.eyes.second_at);
         // The left glass is red and passes the left eye's red; the right glass passes green and blue.
-        encoded = vec3f(encoded.r, shown(pixel + frame.eyes.second_at).gb);
+        encoded = select(color, vec3f(encoded.r, color.gb), eye == 1u);
     }
     show(pixel, encoded);
 }

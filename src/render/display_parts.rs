@@ -11,8 +11,10 @@ use std::collections::{BTreeMap, VecDeque};
 pub enum DisplayPart {
     /// The pixels between those of a sparse lattice, and the mean of sub-frames.
     Fill,
-    /// Statistics of the whole film, exposure and bloom.
-    Post,
+    /// Statistics of the whole film, and exposure.
+    Statistics,
+    /// The light that blooms.
+    Bloom,
     /// One iteration of the denoiser: 0 is the first, with the input that is made for it.
     Denoise(u32),
     /// From film to display values.
@@ -196,7 +198,7 @@ mod tests {
     #[test]
     fn a_short_display_is_divided_only_until_its_parts_are_known() {
         let mut division = DisplayDivision::default();
-        let short = [(Fill, 2.0), (Post, 3.0), (Tone, 4.0)];
+        let short = [(Fill, 2.0), (Bloom, 3.0), (Tone, 4.0)];
         let (submitted, total_ms) = display(&mut division, &short);
         assert_eq!(submitted, short.map(|(part, _)| PartRange::only(part)));
         assert_eq!(total_ms, 9.0);
@@ -212,11 +214,11 @@ mod tests {
     #[test]
     fn long_parts_are_alone_and_short_ones_together() {
         let mut division = DisplayDivision::default();
-        let long = [(Fill, 150.0), (Post, 40.0), (Denoise(0), 50.0), (Tone, 30.0)];
+        let long = [(Fill, 150.0), (Bloom, 40.0), (Denoise(0), 50.0), (Tone, 30.0)];
         assert_eq!(display(&mut division, &long).0.len(), 4);
-        let divided = vec![PartRange::only(Fill), parts(Post, Denoise(0)), PartRange::only(Tone)];
+        let divided = vec![PartRange::only(Fill), parts(Bloom, Denoise(0)), PartRange::only(Tone)];
         // The shortest part takes 30 ms: no part takes less than its time alone without these.
-        let in_trial = vec![PartRange::only(Fill), parts(Post, Tone)];
+        let in_trial = vec![PartRange::only(Fill), parts(Bloom, Tone)];
         for known_displays in 1..=20_u32 {
             let expected = if known_displays.is_power_of_two() { &in_trial } else { &divided };
             assert_eq!(
@@ -232,7 +234,7 @@ mod tests {
     #[test]
     fn late_completions_do_not_leave_a_short_display_divided() {
         let mut division = DisplayDivision::default();
-        let parts = [Fill, Post, Denoise(0), Denoise(1), Denoise(2), Denoise(3), Denoise(4), Tone];
+        let parts = [Fill, Bloom, Denoise(0), Denoise(1), Denoise(2), Denoise(3), Denoise(4), Tone];
         let mut submits = Vec::new();
         for _ in 0..12 {
             division.begin(parts);
@@ -266,19 +268,19 @@ mod tests {
     #[test]
     fn a_display_without_the_denoiser_says_nothing_of_the_denoiser() {
         let mut division = DisplayDivision::default();
-        let denoised = [(Post, 2.0), (Denoise(0), 90.0), (Denoise(1), 80.0), (Tone, 10.0)];
+        let denoised = [(Bloom, 2.0), (Denoise(0), 90.0), (Denoise(1), 80.0), (Tone, 10.0)];
         let divided = vec![
-            PartRange::only(Post),
+            PartRange::only(Bloom),
             PartRange::only(Denoise(0)),
             PartRange::only(Denoise(1)),
             PartRange::only(Tone),
         ];
         assert_eq!(display(&mut division, &denoised).0, divided);
-        let plain = [(Post, 2.0), (Tone, 10.0)];
+        let plain = [(Bloom, 2.0), (Tone, 10.0)];
         for _ in 0..6 {
-            assert_eq!(display(&mut division, &plain).0, [parts(Post, Tone)]);
+            assert_eq!(display(&mut division, &plain).0, [parts(Bloom, Tone)]);
         }
-        let divided = vec![parts(Post, Denoise(0)), parts(Denoise(1), Tone)];
+        let divided = vec![parts(Bloom, Denoise(0)), parts(Denoise(1), Tone)];
         assert_eq!(display(&mut division, &denoised).0, divided);
     }
 
@@ -299,10 +301,10 @@ mod tests {
     #[test]
     fn the_rest_of_a_display_does_not_wait_for_what_is_in_flight() {
         let mut division = DisplayDivision::default();
-        division.begin([Fill, Post, Tone]);
+        division.begin([Fill, Bloom, Tone]);
         assert_eq!(division.next_parts(), Some(PartRange::only(Fill)));
         assert_eq!(division.next_parts(), None);
-        let rest = [Post, Tone].map(PartRange::only);
+        let rest = [Bloom, Tone].map(PartRange::only);
         assert_eq!(
             [division.next_parts_without_waiting(), division.next_parts_without_waiting()],
             rest.map(Some)

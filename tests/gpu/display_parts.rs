@@ -34,10 +34,10 @@ fn a_first_display_is_submitted_part_by_part() {
     denoised.integrator.kind = IntegratorKind::Path;
     denoised.integrator.denoise = true;
     let denoiser = (0..=4).map(DisplayPart::Denoise);
-    let of_denoised = [DisplayPart::Post].into_iter().chain(denoiser);
+    let of_denoised = [DisplayPart::Bloom].into_iter().chain(denoiser);
     let cases = [
         (sampled(Scene::default(), 2), Vec::new()),
-        (blooming(), vec![DisplayPart::Post]),
+        (blooming(), vec![DisplayPart::Bloom]),
         (denoised, of_denoised.collect()),
     ];
     for (scene, before_tone) in cases {

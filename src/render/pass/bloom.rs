@@ -17,7 +17,7 @@ pub const PASS: Pass = Pass {
     set: &pipeline_set::POST,
     modes: ONE_MODE,
     record: Record::Film {
-        parts: PartRange::only(DisplayPart::Post),
+        parts: PartRange::only(DisplayPart::Bloom),
         when: |recorder, _| recorder.tasks.bloom,
         record,
     },

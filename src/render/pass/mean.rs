@@ -17,7 +17,7 @@ pub const PASS: Pass = Pass {
     set: &pipeline_set::POST,
     modes: ONE_MODE,
     record: Record::Film {
-        parts: PartRange::only(DisplayPart::Post),
+        parts: PartRange::only(DisplayPart::Statistics),
         when: |recorder, _| recorder.tasks.mean,
         record,
     },

@@ -80,11 +80,13 @@ impl View {
     fn parts_of(&self, display: &Display, recording: &Recording) -> Vec<DisplayPart> {
         let has_sub_frames = self.inputs.as_ref().is_some_and(|inputs| inputs.sub_frame.is_some());
         let fills = display.fill || has_sub_frames;
-        let has_post = recording.tasks != Tasks::default();
+        let tasks = recording.tasks;
+        let has_statistics = tasks.mean || tasks.histogram || tasks.adapt.is_some();
         let denoises = recording.denoises.then(denoise::parts);
         let parts = fills.then_some(DisplayPart::Fill).into_iter();
         parts
-            .chain(has_post.then_some(DisplayPart::Post))
+            .chain(has_statistics.then_some(DisplayPart::Statistics))
+            .chain(tasks.bloom.then_some(DisplayPart::Bloom))
             .chain(denoises.into_iter().flatten())
             .chain([DisplayPart::Tone])
             .collect()
