@@ -65,6 +65,10 @@ const MAX_IN_TRIAL_MS: f64 = 2.0 * MAX_TOGETHER_MS;
 /// The least that remains of an expected time after a measurement: slow fills of coarse lattices alternate with fast ones.
 const LEAST_REMAINING: f64 = 0.5;
 
+/// How many times as long as known parts those of another view may take: its tone curve may be expensive, and its bloom and tone
+/// mapping by general pipelines until special ones are compiled.
+const OTHER_VIEW: f64 = 3.0;
+
 /// A submit that has not ended.
 #[derive(Clone, Debug)]
 struct InFlight {
@@ -79,6 +83,8 @@ struct InFlight {
 pub struct DisplayDivision {
     /// Expected time of each part that has been measured, milliseconds.
     expected_ms: BTreeMap<DisplayPart, f64>,
+    /// Whether the display under way, or else the next one, is the first of another view.
+    is_of_other_view: bool,
     /// Parts of the display under way that have not been submitted, in order.
     left: Vec<DisplayPart>,
     /// Number of displays since the one whose parts were not all known. Trials are the first, second, fourth and so on.
@@ -97,6 +103,11 @@ impl DisplayDivision {
         self.expected_ms.clear();
         self.shortest_ms = None;
         self.in_flight.iter_mut().for_each(|submit| submit.is_of_old_size = true);
+    }
+
+    /// Expects the next display, of another view, to take longer. Where displays are fast, it remains one submit.
+    pub fn expect_longer(&mut self) {
+        self.is_of_other_view = true;
     }
 
     /// Begins a display that has `parts`, in order, of which the last is [`DisplayPart::Tone`]. All parts of the display before
@@ -123,9 +134,10 @@ impl DisplayDivision {
         let is_trial = self.known_displays.is_power_of_two();
         // Of parts that are submitted together all but one may take less than alone, by as much as the latency of a completion.
         let latency_ms = if is_trial { self.shortest_ms.unwrap_or(0.0) } else { 0.0 };
+        let factor = if self.is_of_other_view { OTHER_VIEW } else { 1.0 };
         let (mut sum_ms, mut saved_ms) = (0.0, 0.0);
         let fit = self.left.iter().take_while(|part| {
-            sum_ms += self.expected_ms.get(part).copied().unwrap_or(f64::INFINITY);
+            sum_ms += factor * self.expected_ms.get(part).copied().unwrap_or(f64::INFINITY);
             let fits = sum_ms <= MAX_IN_TRIAL_MS && sum_ms - saved_ms <= MAX_TOGETHER_MS;
             saved_ms += latency_ms;
             fits
@@ -133,6 +145,7 @@ impl DisplayDivision {
         let count = fit.count().max(1).min(self.left.len());
         let parts: Vec<_> = self.left.drain(..count).collect();
         let range = PartRange { first: *parts.first()?, last: *parts.last()? };
+        self.is_of_other_view &= !range.are_last();
         self.in_flight.push_back(InFlight { parts, is_of_old_size: false });
         Some(range)
     }
@@ -262,6 +275,20 @@ mod tests {
         for fill_ms in [90.0, 10.0, 90.0] {
             times[0].1 = fill_ms;
             assert_eq!(display(&mut division, &times).0.len(), 2);
+        }
+    }
+
+    #[test]
+    fn the_first_display_of_another_view_is_divided_where_displays_are_slow() {
+        let mut division = DisplayDivision::default();
+        for (ms, submits) in [(10.0, 1), (15.0, 2), (20.0, 3)] {
+            let parts = [(Fill, ms), (Bloom, ms), (Tone, ms)];
+            for _ in 0..6 {
+                display(&mut division, &parts);
+            }
+            division.expect_longer();
+            assert_eq!(display(&mut division, &parts).0.len(), submits, "{ms} ms");
+            assert_eq!(display(&mut division, &parts).0.len(), 1, "{ms} ms");
         }
     }
 

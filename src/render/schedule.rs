@@ -251,8 +251,13 @@ impl Schedule {
         self.changed_at = now_secs;
         self.interface_frames.release();
         // A jump that was never shown stays one.
-        self.is_jump = (stale == Stale::Geometry && !moving) || (self.is_jump && self.opening);
+        self.is_jump = (stale == Stale::Geometry && !moving) || self.is_at_jump();
         self.restart(stale);
+    }
+
+    /// Whether another view has not been shown yet, which may cost many times what the last one cost.
+    pub fn is_at_jump(&self) -> bool {
+        self.is_jump && self.opening
     }
 
     /// Sets whether more changes are expected, without a change.

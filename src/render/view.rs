@@ -320,6 +320,9 @@ impl View {
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.times.now_secs());
+            if self.schedule.is_at_jump() {
+                self.display_division.expect_longer();
+            }
             self.times.note_change();
         }
         if has_other_target {
