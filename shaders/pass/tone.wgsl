@@ -42,7 +42,7 @@ fn reconstructed(pixel: vec2u) -> vec3f {
     let own = film_mean(pixel_index(pixel));
     var low = vec3f(3e38);
     var high = vec3f(-3e38);
-    // Loops, because a software GPU computes both sides of a branch.
+    // A loop, here and over the eyes: a software GPU computes both sides of a branch, but skips a loop without turns.
     let sides = select(0u, 4u, is_sparse());
     for (var side = 0u; side < sides; side++) {
         let toward = 1 - 2 * i32(side & 1u);

@@ -142,8 +142,8 @@ impl Cost {
         }
     }
 
-    /// Forgets what rays cost by other arithmetics: that was in other views. Where pipelines are compiled while the view refines,
-    /// pieces of theirs are sized by what its rays cost by `kept`.
+    /// Forgets what rays cost by other arithmetics than `kept`: it was measured in other views. The first pieces by pipelines that
+    /// are compiled while this view refines are sized by what its rays cost by `kept`.
     fn forget_rays_but_by(&mut self, kept: Arithmetic) {
         for arithmetic in ARITHMETICS.into_iter().filter(|&arithmetic| arithmetic != kept) {
             self.histories[history_index(WorkKind::Tracing, arithmetic)] = CostHistory::default();
