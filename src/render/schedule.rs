@@ -63,6 +63,14 @@ const DISPLAY_SHARE: f64 = 0.05;
 /// Time without a change after which a movement is over, seconds.
 const QUIET_SECS: f64 = 0.12;
 
+/// Work whose cost in one picture says nothing of the next one: in another view, or with other settings, paths are longer
+/// or shorter.
+const NEW_IN_ANOTHER_PICTURE: &[WorkKind] = &[WorkKind::Paths];
+
+/// Work whose cost in one view says nothing of another one. No opening shows what shading alone and indirect light cost
+/// there, as it shows the cost of rays.
+const NEW_IN_ANOTHER_VIEW: &[WorkKind] = &[WorkKind::Paths, WorkKind::Shading, WorkKind::Indirect];
+
 /// The state machine.
 #[derive(Clone, Debug)]
 pub struct Schedule {
@@ -281,10 +289,9 @@ impl Schedule {
     /// Begins another picture, of which none has been shown.
     fn begin_opening(&mut self) {
         if self.pace == Pace::Interactive {
-            self.cost.forget_paths();
-            if self.is_jump {
-                self.cost.forget_shading();
-            }
+            let kinds = if self.is_jump { NEW_IN_ANOTHER_VIEW } else { NEW_IN_ANOTHER_PICTURE };
+            self.cost.forget(kinds);
+            self.in_flight.forget(kinds);
         }
         self.interface_frames.release();
         self.is_converged = false;
@@ -303,17 +310,20 @@ impl Schedule {
             return None;
         }
         let work = self.choose(now_secs)?;
-        let expected_ms = match work {
+        let (learned_as, expected_ms) = match work {
             Work::Trace(trace) => {
-                let whole_ms = self.cost.expected_ms(trace.job(), phase, trace.samples());
-                match trace.parts() {
+                let job = trace.job();
+                let whole_ms = self.cost.expected_ms(job, phase, trace.samples());
+                let expected_ms = match trace.parts() {
                     1 => whole_ms,
                     parts => self.cost.division.part_ms(parts, whole_ms),
-                }
+                };
+                (Some(self.cost.sample_cost(job)), expected_ms)
             }
-            Work::Display(_) => self.cost.display_ms(),
+            Work::Display(_) => (None, self.cost.display_ms()),
         };
-        self.in_flight.push(Piece { phase, arithmetic: self.cost.arithmetic, expected_ms });
+        let arithmetic = self.cost.arithmetic;
+        self.in_flight.push(Piece { phase, arithmetic, learned_as, expected_ms });
         Some(work)
     }
 

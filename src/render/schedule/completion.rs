@@ -11,6 +11,7 @@ use super::{
     cost::Cost,
     division::Division,
     interface_frames::InterfaceFrames,
+    plan::{SampleCost, WorkKind},
     types::{Arithmetic, Phase},
     work::{Trace, Work},
 };
@@ -37,6 +38,8 @@ pub struct Piece {
     pub phase: Phase,
     /// How its kernels raise powers.
     pub arithmetic: Arithmetic,
+    /// What its time will be learned as; none of a display, and of a trace whose kind of work has been forgotten since.
+    pub learned_as: Option<SampleCost>,
     /// Its estimated GPU time, milliseconds.
     pub expected_ms: f64,
 }
@@ -74,6 +77,13 @@ impl InFlight {
     /// Adds a piece that has been submitted.
     pub fn push(&mut self, piece: Piece) {
         self.pieces.push_back(piece);
+    }
+
+    /// Learns nothing from the pieces in flight of these kinds of work, when they end.
+    pub fn forget(&mut self, kinds: &[WorkKind]) {
+        for piece in &mut self.pieces {
+            piece.learned_as.take_if(|cost| kinds.contains(&cost.kind));
+        }
     }
 
     /// Number of pieces.
@@ -153,9 +163,11 @@ impl InFlight {
         let mean = |values: f64| values / traces.len() as f64;
         let samples = mean(traces.iter().map(|(trace, ..)| f64::from(trace.samples())).sum());
         let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
-        for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
-            if let Some(ms) = self.whole_ms(trace, trace_ms, &mut cost.division) {
-                cost.traced(trace.job(), *phase, *arithmetic, samples, ms);
+        for (trace, Piece { phase, arithmetic, learned_as, .. }, _) in &traces {
+            if let Some(ms) = self.whole_ms(trace, trace_ms, &mut cost.division)
+                && let Some(sample_cost) = *learned_as
+            {
+                cost.traced(sample_cost, *phase, *arithmetic, samples, ms);
             }
         }
         for completion in group.iter().filter(|it| matches!(it.work, Work::Display(_))) {

@@ -96,16 +96,11 @@ impl Cost {
         self.plan = plan;
     }
 
-    /// Forgets what paths cost: in another view, or with other settings, paths are longer or shorter.
-    ///
-    /// The next pieces are small, and grow as they are measured.
-    pub fn forget_paths(&mut self) {
-        self.histories[PATHS..SHADING].fill(CostHistory::default());
-    }
-
-    /// Forgets what shading alone and indirect light cost: no opening of another view shows it, as one shows the cost of rays.
-    pub fn forget_shading(&mut self) {
-        self.histories[SHADING..].fill(CostHistory::default());
+    /// Forgets what these kinds of work cost. Their next pieces are small, and grow as they are measured.
+    pub fn forget(&mut self, kinds: &[WorkKind]) {
+        for &kind in kinds {
+            self.forget_but_by(None, kind);
+        }
     }
 
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
@@ -119,34 +114,35 @@ impl Cost {
     }
 
     /// What a job costs for each of its samples.
-    fn sample_cost(&self, job: Job) -> SampleCost {
+    pub fn sample_cost(&self, job: Job) -> SampleCost {
         (self.plan.sample_cost)(job, self.casting)
     }
 
-    /// Learns that a trace of so many samples by `arithmetic` took `busy_ms`.
+    /// Learns that a trace of so many samples by `arithmetic`, each of `sample_cost`, took `busy_ms`.
     pub fn traced(
         &mut self,
-        job: Job,
+        sample_cost: SampleCost,
         phase: Phase,
         arithmetic: Arithmetic,
         samples: f64,
         busy_ms: f64,
     ) {
         if samples > 0.0 {
-            let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
+            let SampleCost { kind, rays: rays_of_sample } = sample_cost;
+            // Rays by other arithmetics were measured in other views. The first pieces by pipelines that are compiled while this
+            // view refines are sized by what its rays cost by the present one.
             if phase == Phase::Jump && kind == WorkKind::Tracing {
-                self.forget_rays_but_by(arithmetic);
+                self.forget_but_by(Some(arithmetic), kind);
             }
             let history = &mut self.histories[history_index(kind, arithmetic)];
             history.learn(phase, samples * rays_of_sample, busy_ms.max(1e-3));
         }
     }
 
-    /// Forgets what rays cost by other arithmetics than `kept`: it was measured in other views. The first pieces by pipelines that
-    /// are compiled while this view refines are sized by what its rays cost by `kept`.
-    fn forget_rays_but_by(&mut self, kept: Arithmetic) {
-        for arithmetic in ARITHMETICS.into_iter().filter(|&arithmetic| arithmetic != kept) {
-            self.histories[history_index(WorkKind::Tracing, arithmetic)] = CostHistory::default();
+    /// Forgets what a kind of work costs by all arithmetics but `kept`.
+    fn forget_but_by(&mut self, kept: Option<Arithmetic>, kind: WorkKind) {
+        for arithmetic in ARITHMETICS.into_iter().filter(|&arithmetic| Some(arithmetic) != kept) {
+            self.histories[history_index(kind, arithmetic)] = CostHistory::default();
         }
     }
 
