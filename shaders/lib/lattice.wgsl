@@ -13,6 +13,11 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
     return vec2u(x, y);
 }
 
+// The pixel of a thread in a dispatch over rows of pixels.
+fn pixel_of_rows(workgroup: vec2u, local_index: u32) -> vec2u {
+    return WORKGROUP_SIDE * (workgroup + vec2u(0u, dispatch.first_row)) + place_in_workgroup(local_index);
+}
+
 // A workgroup's threads form eight blocks, in the order of their index; a block's rays march as one
 // cone. With single samples a block covers four by two pixels; with several samples per pixel it
 // covers all samples of two by two pixels, of two pixels, or of one.

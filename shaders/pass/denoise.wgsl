@@ -100,7 +100,7 @@ fn output_of(index: u32, light: vec3f) -> vec3f {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     read_frame();
-    let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
+    let pixel = pixel_of_rows(workgroup.xy, local_index);
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);
     var light = filtered(pixel);

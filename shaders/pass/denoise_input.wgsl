@@ -63,7 +63,7 @@ fn local_deviation(pixel: vec2u) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     read_frame();
-    let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
+    let pixel = pixel_of_rows(workgroup.xy, local_index);
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);
     var error = error_of(pixel);

@@ -5,7 +5,7 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     read_frame();
-    let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
+    let pixel = pixel_of_rows(workgroup.xy, local_index);
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);
     var all = ShutterPixel(vec3f(0.0), 0.0, vec2u(0u), 0.0);

@@ -113,7 +113,7 @@ fn show(pixel: vec2u, encoded: vec3f) {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     read_frame();
-    let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
+    let pixel = pixel_of_rows(workgroup.xy, local_index);
     if (!inside_region(pixel)) { return; }
     if (is_anaglyph() && is_second_eye(pixel)) { return; }
     var encoded = vec3f(0.0);

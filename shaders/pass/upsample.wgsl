@@ -26,7 +26,7 @@ fn sample_at(cell: vec2i) -> vec3f {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     read_frame();
-    let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
+    let pixel = pixel_of_rows(workgroup.xy, local_index);
     if (!inside_region(pixel)) { return; }
     let place = vec2f(pixel) / f32(1u << dispatch.shift);
     let staggered = dispatch.stagger != 0u;

@@ -70,6 +70,8 @@ struct DispatchParams {
     iteration: u32,
     // 1: the display shows the denoised film.
     denoised: u32,
+    // First row of workgroups of a dispatch over rows of pixels.
+    first_row: u32,
 }
 
 const LIGHT_POINT = 1u;

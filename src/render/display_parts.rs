@@ -4,7 +4,10 @@
 //! the end of the one before it, so that frames of the interface and other programs get the GPU between them. A part that was never
 //! measured is submitted alone. Where displays are fast, each later one is a single submit.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::{
+    collections::{BTreeMap, VecDeque},
+    ops::Range,
+};
 
 /// A step of a display: passes that are never submitted apart. In the order of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,10 +18,21 @@ pub enum DisplayPart {
     Statistics,
     /// The light that blooms.
     Bloom,
-    /// One iteration of the denoiser: 0 is the first, with the input that is made for it.
-    Denoise(u32),
+    /// Some rows of a stage of the denoiser.
+    Denoise(DenoiserRows),
     /// From film to display values.
     Tone,
+}
+
+/// Some rows of a stage of the denoiser. In the order of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DenoiserRows {
+    /// 0: the denoiser's input is made; n: iteration n - 1.
+    pub stage: u32,
+    /// The first row of workgroups.
+    pub first: u32,
+    /// One past the last row.
+    pub end: u32,
 }
 
 /// Consecutive parts of a display, submitted together: all that it has from `first` to `last`.
@@ -47,6 +61,22 @@ impl PartRange {
     /// Whether any of `others` is among them.
     pub fn overlaps(self, others: Self) -> bool {
         self.first <= others.last && others.first <= self.last
+    }
+
+    /// The rows of workgroups of a stage of the denoiser that are among them; empty if none are.
+    pub fn rows_of_denoiser(self, stage: u32) -> Range<u32> {
+        let edge = |row| DisplayPart::Denoise(DenoiserRows { stage, first: row, end: row });
+        let start = match self.first {
+            DisplayPart::Denoise(rows) if rows.stage == stage => rows.first,
+            first if first < edge(0) => 0,
+            _ => return 0..0,
+        };
+        let end = match self.last {
+            DisplayPart::Denoise(rows) if rows.stage == stage => rows.end,
+            last if last > edge(u32::MAX) => u32::MAX,
+            _ => return 0..0,
+        };
+        start..end
     }
 
     /// Whether the display is complete with them.
@@ -122,6 +152,13 @@ impl DisplayDivision {
     /// Whether parts of a display are left to submit.
     pub fn has_parts_left(&self) -> bool {
         !self.left.is_empty()
+    }
+
+    /// Leaves out the denoiser, if it is not done yet. Returns whether parts of it were left.
+    pub fn skip_denoiser(&mut self) -> bool {
+        let before = self.left.len();
+        self.left.retain(|part| !matches!(part, DisplayPart::Denoise(_)));
+        self.left.len() < before
     }
 
     /// The next parts to submit together; none while others are in flight, or if none are left.
@@ -204,6 +241,11 @@ mod tests {
         panic!("no part was the last of {parts:?}");
     }
 
+    /// A stage of the denoiser, undivided.
+    fn denoise(stage: u32) -> DisplayPart {
+        Denoise(DenoiserRows { stage, first: 0, end: 6 })
+    }
+
     fn parts(first: DisplayPart, last: DisplayPart) -> PartRange {
         PartRange { first, last }
     }
@@ -217,9 +259,9 @@ mod tests {
         assert_eq!(total_ms, 9.0);
         assert_eq!(display(&mut division, &short), (vec![PartRange::ALL], 9.0));
         // A part that was never measured is alone.
-        let denoised = [(Fill, 2.0), (Denoise(0), 50.0), (Tone, 4.0)];
+        let denoised = [(Fill, 2.0), (denoise(0), 50.0), (Tone, 4.0)];
         let divided =
-            vec![PartRange::only(Fill), PartRange::only(Denoise(0)), PartRange::only(Tone)];
+            vec![PartRange::only(Fill), PartRange::only(denoise(0)), PartRange::only(Tone)];
         assert_eq!(display(&mut division, &denoised).0, divided);
         assert_eq!(display(&mut division, &denoised).0, [PartRange::ALL]);
     }
@@ -227,9 +269,9 @@ mod tests {
     #[test]
     fn long_parts_are_alone_and_short_ones_together() {
         let mut division = DisplayDivision::default();
-        let long = [(Fill, 150.0), (Bloom, 40.0), (Denoise(0), 50.0), (Tone, 30.0)];
+        let long = [(Fill, 150.0), (Bloom, 40.0), (denoise(0), 50.0), (Tone, 30.0)];
         assert_eq!(display(&mut division, &long).0.len(), 4);
-        let divided = vec![PartRange::only(Fill), parts(Bloom, Denoise(0)), PartRange::only(Tone)];
+        let divided = vec![PartRange::only(Fill), parts(Bloom, denoise(0)), PartRange::only(Tone)];
         // The shortest part takes 30 ms: no part takes less than its time alone without these.
         let in_trial = vec![PartRange::only(Fill), parts(Bloom, Tone)];
         for known_displays in 1..=20_u32 {
@@ -247,7 +289,7 @@ mod tests {
     #[test]
     fn late_completions_do_not_leave_a_short_display_divided() {
         let mut division = DisplayDivision::default();
-        let parts = [Fill, Bloom, Denoise(0), Denoise(1), Denoise(2), Denoise(3), Denoise(4), Tone];
+        let parts = [Fill, Bloom, denoise(0), denoise(1), denoise(2), denoise(3), denoise(4), Tone];
         let mut submits = Vec::new();
         for _ in 0..12 {
             division.begin(parts);
@@ -295,11 +337,11 @@ mod tests {
     #[test]
     fn a_display_without_the_denoiser_says_nothing_of_the_denoiser() {
         let mut division = DisplayDivision::default();
-        let denoised = [(Bloom, 2.0), (Denoise(0), 90.0), (Denoise(1), 80.0), (Tone, 10.0)];
+        let denoised = [(Bloom, 2.0), (denoise(0), 90.0), (denoise(1), 80.0), (Tone, 10.0)];
         let divided = vec![
             PartRange::only(Bloom),
-            PartRange::only(Denoise(0)),
-            PartRange::only(Denoise(1)),
+            PartRange::only(denoise(0)),
+            PartRange::only(denoise(1)),
             PartRange::only(Tone),
         ];
         assert_eq!(display(&mut division, &denoised).0, divided);
@@ -307,7 +349,7 @@ mod tests {
         for _ in 0..6 {
             assert_eq!(display(&mut division, &plain).0, [parts(Bloom, Tone)]);
         }
-        let divided = vec![parts(Bloom, Denoise(0)), parts(Denoise(1), Tone)];
+        let divided = vec![parts(Bloom, denoise(0)), parts(denoise(1), Tone)];
         assert_eq!(display(&mut division, &denoised).0, divided);
     }
 
@@ -340,5 +382,44 @@ mod tests {
         assert_eq!(division.ended(PartRange::only(Fill), 1.0), None);
         assert_eq!(division.ended(rest[0], 2.0), None);
         assert_eq!(division.ended(rest[1], 3.0), Some(6.0));
+    }
+
+    #[test]
+    fn every_row_of_each_stage_is_in_one_submit() {
+        let rows = |stage, first, end| Denoise(DenoiserRows { stage, first, end });
+        let all: Vec<_> = (0..3)
+            .flat_map(|stage| [(0, 2), (2, 4), (4, 5)].map(|(first, end)| rows(stage, first, end)))
+            .collect();
+        for splits in [vec![], vec![3], vec![1, 5], vec![2, 3, 8], (1..9).collect()] {
+            let ends = splits.iter().copied().chain([9]);
+            let starts = [0].into_iter().chain(splits.iter().copied());
+            let mut covered = [0; 3];
+            for (start, end) in starts.zip(ends) {
+                let range = PartRange { first: all[start], last: all[end - 1] };
+                for (stage, covered) in (0..).zip(&mut covered) {
+                    let rows = range.rows_of_denoiser(stage);
+                    if !rows.is_empty() {
+                        assert_eq!(rows.start, *covered, "{range:?}");
+                        *covered = rows.end.min(5);
+                    }
+                }
+            }
+            assert_eq!(covered, [5; 3], "{splits:?}");
+        }
+        assert_eq!(PartRange::ALL.rows_of_denoiser(1), 0..u32::MAX);
+        assert!(parts(Fill, Bloom).rows_of_denoiser(0).is_empty());
+        assert!(PartRange::only(Tone).rows_of_denoiser(2).is_empty());
+    }
+
+    #[test]
+    fn a_display_that_skips_the_denoiser_has_all_its_other_parts() {
+        let mut division = DisplayDivision::default();
+        division.begin([Bloom, denoise(0), denoise(1), Tone]);
+        assert_eq!(division.next_parts(), Some(PartRange::only(Bloom)));
+        assert!(division.skip_denoiser());
+        assert!(!division.skip_denoiser());
+        assert_eq!(division.ended(PartRange::only(Bloom), 2.0), None);
+        assert_eq!(division.next_parts(), Some(PartRange::only(Tone)));
+        assert_eq!(division.ended(PartRange::only(Tone), 3.0), Some(5.0));
     }
 }

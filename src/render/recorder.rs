@@ -1,6 +1,6 @@
 //! Records the passes of one submit: bindings and dispatches.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, ops::Range};
 
 use super::{
     display_parts::PartRange,
@@ -314,10 +314,25 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Adds a dispatch over all pixels of the region, row by row.
+    /// Adds a dispatch over all pixels of the region.
     pub fn dispatch_plane(&mut self, pipeline: &PassPipeline, params: DispatchParams) {
-        let workgroups = self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
-        self.dispatch_groups(pipeline, params, workgroups);
+        self.dispatch_rows(pipeline, params, 0..u32::MAX);
+    }
+
+    /// Adds a dispatch over the pixels of some rows of workgroups; rows beyond the region are left out.
+    pub fn dispatch_rows(
+        &mut self,
+        pipeline: &PassPipeline,
+        params: DispatchParams,
+        rows: Range<u32>,
+    ) {
+        let [columns, all_rows] =
+            self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
+        let end = rows.end.min(all_rows);
+        if rows.start < end {
+            let params = DispatchParams { first_row: rows.start, ..params };
+            self.dispatch_groups(pipeline, params, [columns, end - rows.start]);
+        }
     }
 
     /// Adds a dispatch with one thread per pixel of a trace.

@@ -219,6 +219,9 @@ impl View {
     pub fn pump(&mut self, now_secs: f64) -> bool {
         self.times.advance(now_secs);
         self.collect();
+        if self.pending.is_some() {
+            self.skip_denoiser();
+        }
         // The film must not change between the parts of a display.
         if self.continue_display() {
             self.times.is_working = true;

@@ -4,6 +4,7 @@ use mandelight::{
     render::{
         Pace, Region, View,
         display_parts::{DisplayPart, PartRange},
+        pass::denoise,
         view::PieceTime,
     },
     scene::{Bloom, IntegratorKind, Scene},
@@ -22,6 +23,12 @@ fn blooming() -> Scene {
     scene
 }
 
+fn denoised(mut scene: Scene) -> Scene {
+    scene.integrator.kind = IntegratorKind::Path;
+    scene.integrator.denoise = true;
+    scene
+}
+
 /// The parts of displays among pieces that have finished.
 fn parts(pieces: &[PieceTime]) -> Vec<PartRange> {
     pieces.iter().filter_map(|piece| piece.parts).collect()
@@ -30,15 +37,12 @@ fn parts(pieces: &[PieceTime]) -> Vec<PartRange> {
 /// The first display of a view has one part after the other, since nothing is known of their times.
 #[test]
 fn a_first_display_is_submitted_part_by_part() {
-    let mut denoised = blooming();
-    denoised.integrator.kind = IntegratorKind::Path;
-    denoised.integrator.denoise = true;
-    let denoiser = (0..=4).map(DisplayPart::Denoise);
+    let denoiser = denoise::parts(SIZE, pipelines().gpu.cpu.is_some());
     let of_denoised = [DisplayPart::Bloom].into_iter().chain(denoiser);
     let cases = [
         (sampled(Scene::default(), 2), Vec::new()),
         (blooming(), vec![DisplayPart::Bloom]),
-        (denoised, of_denoised.collect()),
+        (denoised(blooming()), of_denoised.collect()),
     ];
     for (scene, before_tone) in cases {
         let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Still);
@@ -49,6 +53,27 @@ fn a_first_display_is_submitted_part_by_part() {
             before_tone.into_iter().chain([DisplayPart::Tone]).map(PartRange::only).collect();
         assert_eq!(parts(&view.take_piece_times()), expected);
         assert_eq!(view.report().pictures, 1);
+    }
+}
+
+/// The rows of each stage in turn, and on a CPU adapter few of them in a large picture.
+#[test]
+fn the_denoiser_has_all_rows_of_each_stage_in_order() {
+    for (size, is_cpu, most) in
+        [(SIZE, true, 6), (SIZE, false, 6), ([640, 361], true, 12), ([9000, 17], true, 1)]
+    {
+        let rows_of_region = size[1].div_ceil(8);
+        let (mut next, mut parts) = ((0, 0), 0);
+        for part in denoise::parts(size, is_cpu) {
+            let DisplayPart::Denoise(rows) = part else { panic!("{part:?}") };
+            assert_eq!((rows.stage, rows.first), next);
+            assert!(rows.end - rows.first <= most, "{rows:?}");
+            let is_last = rows.end == rows_of_region;
+            next = if is_last { (rows.stage + 1, 0) } else { (rows.stage, rows.end) };
+            parts += 1;
+        }
+        // The input and five iterations.
+        assert_eq!((next, parts), ((6, 0), 6 * rows_of_region.div_ceil(most)));
     }
 }
 
@@ -70,24 +95,46 @@ fn amid_a_display(scene: &Scene) -> View {
 
 #[test]
 fn what_changes_amid_a_display_is_as_in_a_new_view() {
-    let scene = blooming();
-    let mut brighter = scene.clone();
-    brighter.tone.exposure += 1.0;
-    let mut moved = scene.clone();
-    moved.camera.vertical_fov_deg *= 0.8;
-    for changed in [&brighter, &moved] {
-        let mut view = amid_a_display(&scene);
-        view.set_scene(changed, false);
-        settle(&mut view);
-        let expected = pixels(&finished(changed, SIZE, Pace::Interactive));
-        assert_same(&pixels(&view), &expected, SIZE, "a change");
+    // The first display with parts is with bloom in one of them, and with the denoiser in the other.
+    for scene in [blooming(), denoised(sampled(Scene::default(), 4))] {
+        let mut brighter = scene.clone();
+        brighter.tone.exposure += 1.0;
+        let mut moved = scene.clone();
+        moved.camera.vertical_fov_deg *= 0.8;
+        for changed in [&scene, &brighter, &moved] {
+            let mut view = amid_a_display(&scene);
+            view.set_scene(changed, false);
+            settle(&mut view);
+            let expected = pixels(&finished(changed, SIZE, Pace::Interactive));
+            assert_same(&pixels(&view), &expected, SIZE, "a change");
+        }
     }
+    // Light paths of pixels that a resized view keeps are not those of a new view.
+    let scene = blooming();
     let larger = [80, 48];
     let mut view = amid_a_display(&scene);
     view.set_region(Region::whole(larger));
     settle(&mut view);
     let expected = pixels(&finished(&scene, larger, Pace::Interactive));
     assert_same(&pixels(&view), &expected, larger, "another size");
+}
+
+/// Nobody waits for the denoiser whose change is to be shown: it is left out, and runs again after the change.
+#[test]
+fn a_change_amid_a_denoised_display_leaves_the_denoiser_out() {
+    let scene = denoised(sampled(Scene::default(), 4));
+    let mut view = amid_a_display(&scene);
+    view.watch_piece_times(true);
+    let mut brighter = scene.clone();
+    brighter.tone.exposure += 1.0;
+    view.set_scene(&brighter, false);
+    settle(&mut view);
+    let parts = parts(&view.take_piece_times());
+    // The part in flight at the change.
+    assert!(parts[0].rows_of_denoiser(0).end > 0, "{parts:?}");
+    assert_eq!(parts[1], PartRange::only(DisplayPart::Tone));
+    let denoises_last_stage = |range: &PartRange| range.rows_of_denoiser(5).end > 0;
+    assert!(parts[2..].iter().any(denoises_last_stage), "{parts:?}");
 }
 
 /// The statistics of a display that began before a histogram was wanted have none.

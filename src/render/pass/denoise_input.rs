@@ -1,5 +1,7 @@
 //! The input of the denoiser: light over albedo, and its error.
 
+use std::ops::Range;
+
 use crate::render::{
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -15,10 +17,10 @@ pub const PASS: Pass = Pass {
     record: Record::Within,
 };
 
-/// Divides the film of the whole region by its albedo.
-pub fn record(recorder: &mut Recorder<'_>) {
+/// Divides the film by its albedo, in some rows of workgroups.
+pub fn record(recorder: &mut Recorder<'_>, rows: Range<u32>) {
     let pipeline = recorder.pipeline(&PASS, 0);
     recorder.bind(1, &recorder.targets.denoiser.input_group);
     recorder.bind_film();
-    recorder.dispatch_plane(&pipeline, DispatchParams::default());
+    recorder.dispatch_rows(&pipeline, DispatchParams::default(), rows);
 }

@@ -83,5 +83,7 @@ host_shared! {
         iteration: u32,
         /// 1: the display shows the denoised film.
         denoised: u32,
+        /// First row of workgroups of a dispatch over rows of pixels.
+        first_row: u32,
     }
 }

@@ -55,8 +55,20 @@ impl View {
         self.display_division.has_parts_left()
     }
 
-    /// Submits all parts that are left, one submit after another, before a change of what they read or write.
+    /// Leaves the denoiser out of the display under way, and shows the film again after it: without a graphics card the denoiser takes
+    /// seconds, which nobody waits for whose change is to be shown.
+    pub(super) fn skip_denoiser(&mut self) {
+        if self.display_division.skip_denoiser()
+            && let Some(recording) = &mut self.display_under_way
+        {
+            recording.denoises = false;
+            self.schedule.show_again();
+        }
+    }
+
+    /// Submits all parts that are left but the denoiser's, one submit after another, before a change of what they read or write.
     pub(super) fn finish_display(&mut self) {
+        self.skip_denoiser();
         while let Some(parts) = self.display_division.next_parts_without_waiting() {
             self.submit_parts(parts);
         }
@@ -82,7 +94,8 @@ impl View {
         let fills = display.fill || has_sub_frames;
         let tasks = recording.tasks;
         let has_statistics = tasks.mean || tasks.histogram || tasks.adapt.is_some();
-        let denoises = recording.denoises.then(denoise::parts);
+        let (size_px, is_cpu) = (self.region.film_px(), self.pipelines.gpu.cpu.is_some());
+        let denoises = recording.denoises.then(|| denoise::parts(size_px, is_cpu));
         let parts = fills.then_some(DisplayPart::Fill).into_iter();
         parts
             .chain(has_statistics.then_some(DisplayPart::Statistics))

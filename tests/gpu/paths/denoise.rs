@@ -18,6 +18,7 @@ use mandelight_test_support::{
 };
 
 const SIZE: [u32; 2] = [96, 72];
+const SIZE_OF_STILL: [u32; 2] = [200, 150];
 
 /// Colourful bulbs in soft light.
 fn bulb() -> Scene {
@@ -98,12 +99,13 @@ fn denoised_frames_flicker_less() {
 
 /// A file of this format.
 fn still(
+    size_px: [u32; 2],
     scene: &Scene,
     tile_px: [u32; 2],
     format: PictureFormat,
     denoise: Option<bool>,
 ) -> Vec<u8> {
-    let options = StillOptions { tile_px, format, denoise, ..StillOptions::new([200, 150]) };
+    let options = StillOptions { tile_px, format, denoise, ..StillOptions::new(size_px) };
     let job = StillJob::new(pipelines(), scene, options, Vec::new()).expect("a job");
     job.run(|_| ControlFlow::Continue(())).expect("a picture")
 }
@@ -113,21 +115,26 @@ fn denoised_tiles_have_no_seams() {
     let mut scene = sampled(ball_on_floor(), 4);
     scene.integrator.denoise = true;
     let decode = |bytes: Vec<u8>| Picture::decode(Cursor::new(bytes)).expect("a PNG").bytes;
-    let whole = decode(still(&scene, [2048, 2048], PictureFormat::Png, None));
-    let tiles = decode(still(&scene, [72, 24], PictureFormat::Png, None));
-    let noisy = decode(still(&scene, [2048, 2048], PictureFormat::Png, Some(false)));
     let apart = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max();
-    assert!(apart(&whole, &tiles) <= Some(1), "{:?}", apart(&whole, &tiles));
-    assert!(apart(&whole, &noisy) > Some(20), "nothing was denoised");
+    // On a CPU adapter the wide picture is denoised in parts of 40 rows, which no tile is.
+    for (size_px, tile_px) in [(SIZE_OF_STILL, [72, 24]), ([1600, 64], [400, 64])] {
+        let png =
+            |tile_px, denoise| decode(still(size_px, &scene, tile_px, PictureFormat::Png, denoise));
+        let whole = png([2048; 2], None);
+        let tiles = png(tile_px, None);
+        let noisy = png([2048; 2], Some(false));
+        assert!(apart(&whole, &tiles) <= Some(1), "{:?}", apart(&whole, &tiles));
+        assert!(apart(&whole, &noisy) > Some(20), "nothing was denoised");
+    }
 }
 
 #[test]
 fn open_exr_keeps_its_noise_unless_asked() {
     let mut scene = sampled(bulb(), 4);
-    let plain = still(&scene, [2048; 2], PictureFormat::Exr, None);
+    let plain = still(SIZE_OF_STILL, &scene, [2048; 2], PictureFormat::Exr, None);
     scene.integrator.denoise = true;
-    let of_scene = still(&scene, [2048; 2], PictureFormat::Exr, None);
-    let asked = still(&scene, [2048; 2], PictureFormat::Exr, Some(true));
+    let of_scene = still(SIZE_OF_STILL, &scene, [2048; 2], PictureFormat::Exr, None);
+    let asked = still(SIZE_OF_STILL, &scene, [2048; 2], PictureFormat::Exr, Some(true));
     let read = |bytes: &[u8]| {
         let image = read_exr(bytes).expect("an OpenEXR file");
         let channels = image.layer_data.channel_data.list;
