@@ -35,6 +35,10 @@ const GROWTH: f64 = 5.0;
 /// seem to cost nothing until there are more workgroups than that.
 const CAREFUL_GROWTH: f64 = 2.0;
 
+/// Pieces from which on those of a kind of work without openings grow as fast as others: the time of the first ones may be reported
+/// as that of frames of the interface beside them.
+const TRIED_PIECES: usize = 3;
+
 /// The longest short piece, in fixed times.
 const SHORT: f64 = 1.5;
 
@@ -163,10 +167,18 @@ impl CostHistory {
     /// The rate of the refining pieces, which may grow from what was tried in this view.
     fn line(&self) -> Option<Rate> {
         let (fixed_ms, ray_ms) = line(&self.pieces)?;
+        // A browser may report most of a piece's time as that of a frame of the interface beside it. Few pieces do not show that rays
+        // cost much less than those of the openings did.
+        let least_ms = match self.opening {
+            Some(opening) if self.pieces.len() < MANY_PIECES => opening.ray_ms / OTHER_VIEW,
+            _ => 0.0,
+        };
+        let ray_ms = ray_ms.max(least_ms);
         let short = self.pieces.iter().filter(|piece| piece.ms <= SHORT * fixed_ms);
         // Without a short piece rays cost enough for the estimate to hold.
         let short_rays = short.map(|piece| piece.rays).reduce(f64::max).unwrap_or(self.most_rays);
-        let max_rays = GROWTH * self.most_rays;
+        let is_tried = self.opening.is_some() || self.pieces.len() >= TRIED_PIECES;
+        let max_rays = if is_tried { GROWTH } else { CAREFUL_GROWTH } * self.most_rays;
         let careful_rays = max_rays.min(CAREFUL_GROWTH * short_rays);
         Some(Rate { fixed_ms, ray_ms, max_rays, careful_rays })
     }
@@ -302,6 +314,30 @@ mod tests {
             assert!(ray_ms(&opened, phase) < 0.002, "{opened:?}");
             assert!(ray_ms(&alike, phase) < 0.002, "{alike:?}");
         }
+    }
+
+    /// The time of the first piece after a jump may be reported as that of a frame beside it.
+    #[test]
+    fn few_short_pieces_after_an_expensive_jump_do_not_make_its_rays_cheap() {
+        let mut history = known();
+        history.learn(Phase::Jump, 1000.0, 60.0);
+        let ray_ms = |history: &CostHistory| history.rate(Phase::Refining).expect("a rate").ray_ms;
+        for _ in 1..MANY_PIECES {
+            history.learn(Phase::Refining, 500.0, 0.5);
+            assert!((ray_ms(&history) - 0.02).abs() < 1e-9, "{history:?}");
+        }
+        history.learn(Phase::Refining, 500.0, 0.5);
+        assert!(ray_ms(&history) < 0.002, "{history:?}");
+    }
+
+    #[test]
+    fn the_first_pieces_without_an_opening_grow_carefully() {
+        let mut history = CostHistory::default();
+        let sizes = [300.0, 600.0, 1200.0, 6000.0].map(|rays| {
+            history.learn(Phase::Refining, rays, 1.0);
+            history.rate(Phase::Refining).expect("a rate").max_rays
+        });
+        assert_eq!(sizes, [600.0, 1200.0, 6000.0, 30_000.0]);
     }
 
     /// Twice as many rays as the largest short piece where all of the time seems fixed and is too long; five times as many as
