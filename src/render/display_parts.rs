@@ -9,6 +9,8 @@ use std::{
     ops::Range,
 };
 
+use super::lattice::WORKGROUP_SIDE;
+
 /// A step of a display: passes that are never submitted apart. In the order of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DisplayPart {
@@ -18,21 +20,47 @@ pub enum DisplayPart {
     Statistics,
     /// The light that blooms.
     Bloom,
-    /// Some rows of a stage of the denoiser.
-    Denoise(DenoiserRows),
-    /// From film to display values.
-    Tone,
+    /// Some rows of a stage of the denoiser: 0 makes the denoiser's input, n is iteration n - 1.
+    Denoise(u32, Rows),
+    /// Some rows from film to display values.
+    Tone(Rows),
 }
 
-/// Some rows of a stage of the denoiser. In the order of a frame.
+impl DisplayPart {
+    /// The rows of a part of a pass over the pixels.
+    fn rows(self) -> Option<Rows> {
+        match self {
+            Self::Denoise(_, rows) | Self::Tone(rows) => Some(rows),
+            Self::Fill | Self::Statistics | Self::Bloom => None,
+        }
+    }
+}
+
+/// About how many pixels of a pass are submitted together on a CPU adapter. SwiftShader takes up to two microseconds for each.
+const CPU_PIXELS: u32 = 1 << 16;
+
+/// Some rows of workgroups of a pass over the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct DenoiserRows {
-    /// 0: the denoiser's input is made; n: iteration n - 1.
-    pub stage: u32,
-    /// The first row of workgroups.
+pub struct Rows {
+    /// The first one.
     pub first: u32,
-    /// One past the last row.
+    /// One past the last one; [`u32::MAX`] if there are no rows after them.
     pub end: u32,
+}
+
+impl Rows {
+    /// All rows.
+    pub const ALL: Self = Self { first: 0, end: u32::MAX };
+
+    /// All rows of a picture of `size_px`, in runs that take a CPU adapter no longer than a submit should.
+    pub fn runs(size_px: [u32; 2]) -> impl Iterator<Item = Self> + Clone {
+        let [_, all_rows] = size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
+        let rows = (CPU_PIXELS / (WORKGROUP_SIDE * size_px[0])).max(1);
+        (0..all_rows).step_by(rows as usize).map(move |first| {
+            let end = first + rows;
+            Self { first, end: if end < all_rows { end } else { u32::MAX } }
+        })
+    }
 }
 
 /// Consecutive parts of a display, submitted together: all that it has from `first` to `last`.
@@ -46,7 +74,7 @@ pub struct PartRange {
 
 impl PartRange {
     /// All parts of a display.
-    pub const ALL: Self = Self { first: DisplayPart::Fill, last: DisplayPart::Tone };
+    pub const ALL: Self = Self { first: DisplayPart::Fill, last: DisplayPart::Tone(Rows::ALL) };
 
     /// A single part.
     pub const fn only(part: DisplayPart) -> Self {
@@ -63,25 +91,26 @@ impl PartRange {
         self.first <= others.last && others.first <= self.last
     }
 
-    /// The rows of workgroups of a stage of the denoiser that are among them; empty if none are.
-    pub fn rows_of_denoiser(self, stage: u32) -> Range<u32> {
-        let edge = |row| DisplayPart::Denoise(DenoiserRows { stage, first: row, end: row });
-        let start = match self.first {
-            DisplayPart::Denoise(rows) if rows.stage == stage => rows.first,
-            first if first < edge(0) => 0,
-            _ => return 0..0,
+    /// The rows of a pass over the pixels that are among them; empty if none are. `part`: the pass's part with some rows.
+    pub fn rows_of(self, part: impl Fn(Rows) -> DisplayPart) -> Range<u32> {
+        let edge = |row| part(Rows { first: row, end: row });
+        let rows_at = |end: DisplayPart| end.rows().filter(|rows| part(*rows) == end);
+        let start = match rows_at(self.first) {
+            Some(rows) => rows.first,
+            None if self.first < edge(0) => 0,
+            None => return 0..0,
         };
-        let end = match self.last {
-            DisplayPart::Denoise(rows) if rows.stage == stage => rows.end,
-            last if last > edge(u32::MAX) => u32::MAX,
-            _ => return 0..0,
+        let end = match rows_at(self.last) {
+            Some(rows) => rows.end,
+            None if self.last > edge(u32::MAX) => u32::MAX,
+            None => return 0..0,
         };
         start..end
     }
 
     /// Whether the display is complete with them.
     pub fn are_last(self) -> bool {
-        self.last == DisplayPart::Tone
+        matches!(self.last, DisplayPart::Tone(Rows { end: u32::MAX, .. }))
     }
 }
 
@@ -140,7 +169,7 @@ impl DisplayDivision {
         self.is_of_other_view = true;
     }
 
-    /// Begins a display that has `parts`, in order, of which the last is [`DisplayPart::Tone`]. All parts of the display before
+    /// Begins a display that has `parts`, in order, of which the last are [`DisplayPart::Tone`]. All parts of the display before
     /// have been submitted.
     pub fn begin(&mut self, parts: impl IntoIterator<Item = DisplayPart>) {
         debug_assert!(self.left.is_empty(), "one display at a time");
@@ -157,7 +186,7 @@ impl DisplayDivision {
     /// Leaves out the denoiser, if it is not done yet. Returns whether parts of it were left.
     pub fn skip_denoiser(&mut self) -> bool {
         let before = self.left.len();
-        self.left.retain(|part| !matches!(part, DisplayPart::Denoise(_)));
+        self.left.retain(|part| !matches!(part, DisplayPart::Denoise(..)));
         self.left.len() < before
     }
 
@@ -220,7 +249,14 @@ impl DisplayDivision {
 
 #[cfg(test)]
 mod tests {
-    use super::{DisplayPart::*, *};
+    use super::{
+        DisplayPart::{Bloom, Denoise, Fill},
+        *,
+    };
+
+    /// Tone mapping, undivided.
+    #[expect(non_upper_case_globals, reason = "reads as the other parts do")]
+    const Tone: DisplayPart = DisplayPart::Tone(Rows::ALL);
 
     /// The parts that a display of parts with these times is submitted in, and what it took in all.
     fn display(
@@ -243,7 +279,7 @@ mod tests {
 
     /// A stage of the denoiser, undivided.
     fn denoise(stage: u32) -> DisplayPart {
-        Denoise(DenoiserRows { stage, first: 0, end: 6 })
+        Denoise(stage, Rows::ALL)
     }
 
     fn parts(first: DisplayPart, last: DisplayPart) -> PartRange {
@@ -385,30 +421,45 @@ mod tests {
     }
 
     #[test]
-    fn every_row_of_each_stage_is_in_one_submit() {
-        let rows = |stage, first, end| Denoise(DenoiserRows { stage, first, end });
-        let all: Vec<_> = (0..3)
-            .flat_map(|stage| [(0, 2), (2, 4), (4, 5)].map(|(first, end)| rows(stage, first, end)))
-            .collect();
+    fn every_row_of_each_pass_is_in_one_submit() {
+        let runs = [(0, 2), (2, 4), (4, u32::MAX)].map(|(first, end)| Rows { first, end });
+        let passes: [fn(Rows) -> DisplayPart; 3] =
+            [|rows| Denoise(0, rows), |rows| Denoise(1, rows), DisplayPart::Tone];
+        let all: Vec<_> = passes.iter().flat_map(|part| runs.map(part)).collect();
         for splits in [vec![], vec![3], vec![1, 5], vec![2, 3, 8], (1..9).collect()] {
             let ends = splits.iter().copied().chain([9]);
             let starts = [0].into_iter().chain(splits.iter().copied());
             let mut covered = [0; 3];
             for (start, end) in starts.zip(ends) {
                 let range = PartRange { first: all[start], last: all[end - 1] };
-                for (stage, covered) in (0..).zip(&mut covered) {
-                    let rows = range.rows_of_denoiser(stage);
+                assert_eq!(range.are_last(), end == 9);
+                for (part, covered) in passes.iter().zip(&mut covered) {
+                    let rows = range.rows_of(part);
                     if !rows.is_empty() {
                         assert_eq!(rows.start, *covered, "{range:?}");
-                        *covered = rows.end.min(5);
+                        *covered = rows.end;
                     }
                 }
             }
-            assert_eq!(covered, [5; 3], "{splits:?}");
+            assert_eq!(covered, [u32::MAX; 3], "{splits:?}");
         }
-        assert_eq!(PartRange::ALL.rows_of_denoiser(1), 0..u32::MAX);
-        assert!(parts(Fill, Bloom).rows_of_denoiser(0).is_empty());
-        assert!(PartRange::only(Tone).rows_of_denoiser(2).is_empty());
+        assert_eq!(PartRange::ALL.rows_of(passes[1]), 0..u32::MAX);
+        assert!(parts(Fill, Bloom).rows_of(passes[0]).is_empty());
+        assert!(PartRange::only(Tone).rows_of(passes[1]).is_empty());
+        assert!(PartRange::only(denoise(1)).rows_of(DisplayPart::Tone).is_empty());
+    }
+
+    #[test]
+    fn runs_have_all_rows_in_order_and_few_pixels() {
+        for (size_px, most) in [([64_u32, 48], 6), ([640, 361], 12), ([9000, 17], 1), ([1, 1], 1)] {
+            let rows = size_px[1].div_ceil(WORKGROUP_SIDE);
+            let runs: Vec<_> = Rows::runs(size_px).collect();
+            assert_eq!(runs.len(), rows.div_ceil(most) as usize);
+            assert!(runs.windows(2).all(|pair| pair[0].end == pair[1].first), "{runs:?}");
+            assert!(runs.iter().all(|run| run.end.min(rows) - run.first <= most), "{runs:?}");
+            let (first, last) = (runs[0], runs[runs.len() - 1]);
+            assert_eq!([first.first, last.end], [0, u32::MAX]);
+        }
     }
 
     #[test]

@@ -203,6 +203,7 @@ fn display(level: u32) -> Work {
         from_film: false,
         adapt: 1.0,
         kept: KeptPixels::default(),
+        refines: false,
     })
 }
 

@@ -66,6 +66,7 @@ mod tests {
             from_film,
             adapt: 1.0,
             kept: KeptPixels::default(),
+            refines: false,
         })
     }
 

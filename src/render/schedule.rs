@@ -450,6 +450,7 @@ impl Schedule {
         // hardly change the film's mean.
         let is_new_goal = self.is_display_stale && self.progress.samples_done <= 1;
         let adapt = self.adaptation.step(now_secs, now_secs - self.shown_at, is_new_goal);
+        let refines = !self.opening && self.shown_at.is_finite();
         self.is_display_stale = false;
         (self.opening, self.is_jump) = (false, false);
         self.shown_at = now_secs;
@@ -463,6 +464,7 @@ impl Schedule {
             from_film: self.progress.is_filled && level > 0,
             adapt,
             kept: self.progress.kept_pixels(Points::Level(level)),
+            refines,
         })
     }
 

@@ -3,7 +3,7 @@
 use mandelight::{
     render::{
         Pace, Region, View,
-        display_parts::{DisplayPart, PartRange},
+        display_parts::{DisplayPart, PartRange, Rows},
         pass::denoise,
         view::PieceTime,
     },
@@ -16,6 +16,9 @@ use mandelight_test_support::{
 };
 
 const SIZE: [u32; 2] = [64, 48];
+
+/// Tone mapping, undivided.
+const TONE: DisplayPart = DisplayPart::Tone(Rows::ALL);
 
 fn blooming() -> Scene {
     let mut scene = sampled(Scene::default(), 2);
@@ -37,7 +40,7 @@ fn parts(pieces: &[PieceTime]) -> Vec<PartRange> {
 /// The first display of a view has one part after the other, since nothing is known of their times.
 #[test]
 fn a_first_display_is_submitted_part_by_part() {
-    let denoiser = denoise::parts(SIZE, pipelines().gpu.cpu.is_some());
+    let denoiser = denoise::parts([Rows::ALL].into_iter());
     let of_denoised = [DisplayPart::Bloom].into_iter().chain(denoiser);
     let cases = [
         (sampled(Scene::default(), 2), Vec::new()),
@@ -49,32 +52,26 @@ fn a_first_display_is_submitted_part_by_part() {
         view.watch_piece_times(true);
         view.set_scene(&scene, false);
         settle(&mut view);
-        let expected: Vec<_> =
-            before_tone.into_iter().chain([DisplayPart::Tone]).map(PartRange::only).collect();
+        let expected: Vec<_> = before_tone.into_iter().chain([TONE]).map(PartRange::only).collect();
         assert_eq!(parts(&view.take_piece_times()), expected);
         assert_eq!(view.report().pictures, 1);
     }
 }
 
-/// The rows of each stage in turn, and on a CPU adapter few of them in a large picture.
+/// Where a finer picture replaces a coarser one row by row, it is the same in the end.
 #[test]
-fn the_denoiser_has_all_rows_of_each_stage_in_order() {
-    for (size, is_cpu, most) in
-        [(SIZE, true, 6), (SIZE, false, 6), ([640, 361], true, 12), ([9000, 17], true, 1)]
-    {
-        let rows_of_region = size[1].div_ceil(8);
-        let (mut next, mut parts) = ((0, 0), 0);
-        for part in denoise::parts(size, is_cpu) {
-            let DisplayPart::Denoise(rows) = part else { panic!("{part:?}") };
-            assert_eq!((rows.stage, rows.first), next);
-            assert!(rows.end - rows.first <= most, "{rows:?}");
-            let is_last = rows.end == rows_of_region;
-            next = if is_last { (rows.stage + 1, 0) } else { (rows.stage, rows.end) };
-            parts += 1;
-        }
-        // The input and five iterations.
-        assert_eq!((next, parts), ((6, 0), 6 * rows_of_region.div_ceil(most)));
-    }
+fn a_picture_that_was_refined_in_rows_is_that_of_one_submit() {
+    let size = [320, 640];
+    let scene = sampled(Scene::default(), 2);
+    let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
+    view.watch_piece_times(true);
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    let parts = parts(&view.take_piece_times());
+    let is_divided = parts.iter().any(|range| range.rows_of(DisplayPart::Tone).start > 0);
+    assert_eq!(is_divided, pipelines().gpu.cpu.is_some(), "{parts:?}");
+    let still = finished(&scene, size, Pace::Still);
+    assert_same(&pixels(&view), &pixels(&still), size, "in rows");
 }
 
 /// A view whose display has parts that are not submitted yet.
@@ -123,6 +120,8 @@ fn what_changes_amid_a_display_is_as_in_a_new_view() {
 #[test]
 fn a_change_amid_a_denoised_display_leaves_the_denoiser_out() {
     let scene = denoised(sampled(Scene::default(), 4));
+    let rows_of_stage =
+        |range: &PartRange, stage| range.rows_of(|rows| DisplayPart::Denoise(stage, rows));
     let mut view = amid_a_display(&scene);
     view.watch_piece_times(true);
     let mut brighter = scene.clone();
@@ -131,10 +130,9 @@ fn a_change_amid_a_denoised_display_leaves_the_denoiser_out() {
     settle(&mut view);
     let parts = parts(&view.take_piece_times());
     // The part in flight at the change.
-    assert!(parts[0].rows_of_denoiser(0).end > 0, "{parts:?}");
-    assert_eq!(parts[1], PartRange::only(DisplayPart::Tone));
-    let denoises_last_stage = |range: &PartRange| range.rows_of_denoiser(5).end > 0;
-    assert!(parts[2..].iter().any(denoises_last_stage), "{parts:?}");
+    assert!(rows_of_stage(&parts[0], 0).end > 0, "{parts:?}");
+    assert_eq!(parts[1], PartRange::only(TONE));
+    assert!(parts[2..].iter().any(|range| rows_of_stage(range, 5).end > 0), "{parts:?}");
 }
 
 /// The statistics of a display that began before a histogram was wanted have none.

@@ -61,6 +61,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
         from_film: false,
         adapt: 1.0,
         kept: KeptPixels::default(),
+        refines: false,
     });
     let works = [Some(trace(Points::Level(level), Stage::March)), indirect, Some(show)];
     for work in works.into_iter().flatten() {

@@ -2,8 +2,7 @@
 
 use super::denoise_input;
 use crate::render::{
-    display_parts::{DenoiserRows, DisplayPart, PartRange},
-    lattice::WORKGROUP_SIDE,
+    display_parts::{DisplayPart, PartRange, Rows},
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
     uniforms::DispatchParams,
@@ -24,12 +23,9 @@ const LAST_STAGE: u32 = 1 + LAST_ITERATION;
 
 /// All rows of all stages.
 const PARTS: PartRange = PartRange {
-    first: DisplayPart::Denoise(DenoiserRows { stage: 0, first: 0, end: 0 }),
-    last: DisplayPart::Denoise(DenoiserRows { stage: LAST_STAGE, first: u32::MAX, end: u32::MAX }),
+    first: DisplayPart::Denoise(0, Rows { first: 0, end: 0 }),
+    last: DisplayPart::Denoise(LAST_STAGE, Rows { first: u32::MAX, end: u32::MAX }),
 };
-
-/// About how many pixels of a stage are submitted together on a CPU adapter: SwiftShader takes up to two microseconds for each.
-const CPU_PIXELS: u32 = 1 << 16;
 
 /// The pass.
 pub const PASS: Pass = Pass {
@@ -44,31 +40,22 @@ pub const PASS: Pass = Pass {
     },
 };
 
-/// The denoiser's parts of a display of `size_px`: its stages, of which each reads what the one before it wrote. On a CPU adapter
-/// a stage has several parts, of some rows each.
-pub fn parts(size_px: [u32; 2], is_cpu: bool) -> impl Iterator<Item = DisplayPart> {
-    let [_, all_rows] = size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
-    let rows = match is_cpu {
-        true => (CPU_PIXELS / (WORKGROUP_SIDE * size_px[0])).max(1),
-        false => all_rows,
-    };
-    (0..=LAST_STAGE).flat_map(move |stage| {
-        (0..all_rows).step_by(rows as usize).map(move |first| {
-            let end = all_rows.min(first + rows);
-            DisplayPart::Denoise(DenoiserRows { stage, first, end })
-        })
-    })
+/// The denoiser's parts of a display: its stages, of which each reads what the one before it wrote, in these `runs` of rows.
+pub fn parts(runs: impl Iterator<Item = Rows> + Clone) -> impl Iterator<Item = DisplayPart> {
+    (0..=LAST_STAGE)
+        .flat_map(move |stage| runs.clone().map(move |rows| DisplayPart::Denoise(stage, rows)))
 }
 
 /// Filters the light of the region.
 pub fn record(recorder: &mut Recorder<'_>) {
-    denoise_input::record(recorder, recorder.parts.rows_of_denoiser(0));
+    let parts = recorder.parts;
+    let rows_of = |stage| parts.rows_of(|rows| DisplayPart::Denoise(stage, rows));
+    denoise_input::record(recorder, rows_of(0));
     let pipeline = recorder.pipeline(&PASS, 0);
     recorder.bind(1, &recorder.targets.denoiser.group);
     recorder.bind_film();
     for iteration in 0..=LAST_ITERATION {
         let params = DispatchParams { iteration, ..Default::default() };
-        let rows = recorder.parts.rows_of_denoiser(1 + iteration);
-        recorder.dispatch_rows(&pipeline, params, rows);
+        recorder.dispatch_rows(&pipeline, params, rows_of(1 + iteration));
     }
 }

@@ -1,7 +1,7 @@
 //! Film to display: exposure, tone curve, bloom, sRGB, dither.
 
 use crate::render::{
-    display_parts::{DisplayPart, PartRange},
+    display_parts::{DisplayPart, PartRange, Rows},
     lattice::Grid,
     pipeline_set,
     recorder::{Pass, Record, Recorder},
@@ -15,10 +15,16 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film, &layouts.denoised],
     set: &pipeline_set::TONE,
     modes: &[&[("SPARSE", 0)], &[("SPARSE", 1)]],
-    record: Record::Film { parts: PartRange::only(DisplayPart::Tone), when: |_, _| true, record },
+    record: Record::Film { parts: PARTS, when: |_, _| true, record },
 };
 
-/// Tone maps the film of the whole region to the display picture.
+/// All rows.
+const PARTS: PartRange = PartRange {
+    first: DisplayPart::Tone(Rows { first: 0, end: 0 }),
+    last: DisplayPart::Tone(Rows { first: u32::MAX, end: u32::MAX }),
+};
+
+/// Tone maps the film of the region to the display picture.
 pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
     // The first mode is for a complete film, the second for a sparse lattice.
     let pipeline = recorder.pipeline(&PASS, usize::from(level != 0));
@@ -28,5 +34,5 @@ pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
     recorder.bind(3, &recorder.targets.denoiser.output_group);
     let denoised = u32::from(recorder.denoises);
     let params = DispatchParams { spacing, denoised, ..whole.dispatch_params(0) };
-    recorder.dispatch_plane(&pipeline, params);
+    recorder.dispatch_rows(&pipeline, params, recorder.parts.rows_of(DisplayPart::Tone));
 }

@@ -322,7 +322,8 @@ fn tone_edits_only_show() {
             fill: false,
             from_film: false,
             adapt: 1.0,
-            kept: KeptPixels::default()
+            kept: KeptPixels::default(),
+            refines: false,
         }))
     );
     assert_eq!(schedule.next(now), None);
@@ -447,4 +448,23 @@ fn a_region_of_one_pixel_works() {
     schedule.aim(16.0, 2);
     let mut now = 0.0;
     assert!(settle(&mut schedule, &mut device, &mut now) < 1000);
+}
+
+/// The first picture of a change is of another view than what is shown; all later ones are of the same.
+#[test]
+fn displays_after_the_first_refine_what_is_shown() {
+    let (mut device, mut now) = (Device::new(20.0, 0.0), 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 4);
+    for _ in 0..2 {
+        schedule.change(Stale::Geometry, false, now);
+        let works = works_until_rest(&mut schedule, &mut device, &mut now);
+        let refine = works.iter().filter_map(|work| match work {
+            Work::Display(display) => Some(display.refines),
+            Work::Trace(_) => None,
+        });
+        let refine: Vec<_> = refine.collect();
+        assert!(refine.len() > 2 && !refine[0], "{refine:?}");
+        assert!(refine[1..].iter().all(|refines| *refines), "{refine:?}");
+    }
 }

@@ -230,6 +230,8 @@ pub struct Display {
     pub adapt: f32,
     /// The pixels that are not filled.
     pub kept: KeptPixels,
+    /// Whether it refines the picture that is shown: of the same scene and view.
+    pub refines: bool,
 }
 
 /// One piece of work.
@@ -298,6 +300,7 @@ mod tests {
             from_film: false,
             adapt: 1.0,
             kept: KeptPixels::default(),
+            refines: false,
         });
         assert_eq!(display.batches(BATCH_WORKGROUPS).collect::<Vec<_>>(), [display]);
     }

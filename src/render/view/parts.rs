@@ -219,6 +219,7 @@ mod tests {
             from_film: false,
             adapt: 1.0,
             kept: KeptPixels::default(),
+            refines: false,
         });
         let mut times = Times::default();
         let recorded = |times: &mut Times, busy_ms: f64| {

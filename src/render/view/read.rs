@@ -17,6 +17,7 @@ impl View {
     ///
     /// With 16 bits per channel it has [two texels](super::super::display_values::DisplayValues::is_deep) a pixel.
     /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
+    /// On a CPU adapter a finer picture of a view takes the place of a coarser one row by row.
     /// After a change of size it is the old picture, in its own size, until there is a new one.
     pub fn texture(&self) -> Option<&wgpu::Texture> {
         self.shown.texture()

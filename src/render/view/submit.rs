@@ -5,7 +5,7 @@ use super::{
     parts::{PieceTime, Recording, Submitted},
 };
 use crate::render::{
-    display_parts::{DisplayPart, PartRange},
+    display_parts::{DisplayPart, PartRange, Rows},
     frame,
     lattice::WORKGROUP_THREADS,
     pass::denoise,
@@ -94,14 +94,19 @@ impl View {
         let fills = display.fill || has_sub_frames;
         let tasks = recording.tasks;
         let has_statistics = tasks.mean || tasks.histogram || tasks.adapt.is_some();
-        let (size_px, is_cpu) = (self.region.film_px(), self.pipelines.gpu.cpu.is_some());
-        let denoises = recording.denoises.then(|| denoise::parts(size_px, is_cpu));
+        let divided: Vec<_> = match self.pipelines.gpu.cpu {
+            Some(_) => Rows::runs(self.region.film_px()).collect(),
+            None => vec![Rows::ALL],
+        };
+        let denoises = recording.denoises.then(|| denoise::parts(divided.iter().copied()));
+        // Rows of two pictures are seen together only where one is a finer one of the other.
+        let toned = if display.refines { divided.clone() } else { vec![Rows::ALL] };
         let parts = fills.then_some(DisplayPart::Fill).into_iter();
         parts
             .chain(has_statistics.then_some(DisplayPart::Statistics))
             .chain(tasks.bloom.then_some(DisplayPart::Bloom))
             .chain(denoises.into_iter().flatten())
-            .chain([DisplayPart::Tone])
+            .chain(toned.into_iter().map(DisplayPart::Tone))
             .collect()
     }
 

@@ -83,6 +83,7 @@ impl Film {
                 from_film: false,
                 adapt: 1.0,
                 kept: KeptPixels::default(),
+                refines: false,
             }),
         );
         gpu.queue.submit([recorder.finish()]);
